@@ -1,0 +1,125 @@
+/// The value type of a kernel: a SIMD pack of doubles on the CPU, one double for a CUDA thread.
+/// A kernel templated on `Value` is written once with the functions below and runs as either.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "exchange/macros.hpp"
+
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+#include <experimental/simd>
+#endif
+
+namespace hemoflux::exchange {
+
+/// Rows of fields start on a multiple of this many values, whatever the width of a pack.
+inline constexpr std::size_t row_alignment = 8;
+
+#if defined(HEMOFLUX_BACKEND_CUDA)
+using Pack = double;
+inline constexpr std::size_t pack_lanes = 1;
+#else
+/// As many doubles as one register of this machine holds; never wider.
+using Pack = std::experimental::native_simd<double>;
+inline constexpr std::size_t pack_lanes = Pack::size();
+#endif
+
+/// Number of values that `Value` carries side by side.
+template <class Value>
+struct Lanes {
+    static constexpr std::size_t count = 1;
+};
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+template <>
+struct Lanes<Pack> {
+    static constexpr std::size_t count = pack_lanes;
+};
+#endif
+template <class Value>
+inline constexpr std::size_t lanes = Lanes<Value>::count;
+
+/// lanes<Value> consecutive values from p (no alignment needed).
+template <class Value>
+HEMOFLUX_INLINE Value load(const double* p) {
+    if constexpr (lanes<Value> == 1) {
+        return *p;
+    } else {
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+        return Value(p, std::experimental::element_aligned);
+#endif
+    }
+}
+
+/// Writes all lanes of v to p (no alignment needed).
+template <class Value>
+HEMOFLUX_INLINE void store(double* p, const Value& v) {
+    if constexpr (lanes<Value> == 1) {
+        *p = v;
+    } else {
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+        v.copy_to(p, std::experimental::element_aligned);
+#endif
+    }
+}
+
+/// Writes the first `count` lanes of v to p and leaves the rest alone; count >= lanes writes all.
+template <class Value>
+HEMOFLUX_INLINE void store_first(double* p, const Value& v, std::ptrdiff_t count) {
+    if constexpr (lanes<Value> == 1) {
+        if (count > 0) *p = v;
+    } else {
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+        if (count >= static_cast<std::ptrdiff_t>(lanes<Value>)) {
+            v.copy_to(p, std::experimental::element_aligned);
+        } else {
+            for (std::ptrdiff_t l = 0; l < count; ++l) p[l] = v[static_cast<std::size_t>(l)];
+        }
+#endif
+    }
+}
+
+/// Values p[index[0]], p[index[1]], ... of one pack.
+template <class Value>
+HEMOFLUX_INLINE Value gather(const double* p, const int* index) {
+    if constexpr (lanes<Value> == 1) {
+        return p[*index];
+    } else {
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+        return Value([&](std::size_t l) { return p[index[l]]; });
+#endif
+    }
+}
+
+HEMOFLUX_INLINE double minimum(double a, double b) { return a < b ? a : b; }
+HEMOFLUX_INLINE double maximum(double a, double b) { return a > b ? a : b; }
+/// yes where condition holds, else no.
+HEMOFLUX_INLINE double select(bool condition, double yes, double no) { return condition ? yes : no; }
+HEMOFLUX_INLINE double square_root(double a) { return std::sqrt(a); }
+HEMOFLUX_INLINE double absolute(double a) { return std::fabs(a); }
+/// Sum over the lanes, in lane order.
+HEMOFLUX_INLINE double lane_sum(double a) { return a; }
+
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+inline Pack minimum(const Pack& a, const Pack& b) { return std::experimental::min(a, b); }
+inline Pack maximum(const Pack& a, const Pack& b) { return std::experimental::max(a, b); }
+inline Pack select(const Pack::mask_type& condition, const Pack& yes, const Pack& no) {
+    Pack r = no;
+    std::experimental::where(condition, r) = yes;
+    return r;
+}
+inline Pack square_root(const Pack& a) { return std::experimental::sqrt(a); }
+inline Pack absolute(const Pack& a) { return std::experimental::abs(a); }
+inline double lane_sum(const Pack& a) {
+    double s = 0;
+    for (std::size_t l = 0; l < pack_lanes; ++l) s += a[l];
+    return s;
+}
+#endif
+
+/// Smallest multiple of `multiple` that is not below n.
+HEMOFLUX_INLINE constexpr std::size_t round_up(std::size_t n, std::size_t multiple) {
+    return (n + multiple - 1) / multiple * multiple;
+}
+
+}  // namespace hemoflux::exchange
