@@ -37,6 +37,20 @@ void for_each_index(std::size_t n, Function f, Cost cost = Cost::heavy) {
 
 namespace detail {
 
+/// All packs of one row on the CPU; one pack (a single value) per CUDA thread.
+template <class Function>
+struct RowLoop {
+    Function f;
+    std::size_t packs;
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        if constexpr (on_gpu) {
+            f(i / packs, i % packs);
+        } else {
+            for (std::size_t p = 0; p < packs; ++p) f(i, p);
+        }
+    }
+};
+
 /// Sums f over one chunk of one segment, sequentially.
 template <class T, class Function>
 struct ChunkSum {
@@ -90,6 +104,16 @@ struct ChunkFind {
 };
 
 }  // namespace detail
+
+/// Calls f(row, p) for every row and p = 0 .. packs-1, where a pack holds lanes<Pack> values. Rows are shared
+/// out among threads and packs of a row run in order; on a GPU every pack is a thread of its own.
+template <class Function>
+void for_each_row(std::size_t rows, std::size_t packs, Function f, Cost cost = Cost::heavy) {
+    const std::size_t n = on_gpu ? rows * packs : rows;
+    if constexpr (!on_gpu)
+        if (cost == Cost::cheap && rows * packs >= serial_limit) cost = Cost::heavy;
+    for_each_index(n, detail::RowLoop<Function>{f, packs}, cost);
+}
 
 /// Items per partial sum; fixed, so that a sum is the same for any number of threads.
 inline constexpr std::size_t reduction_chunk = on_gpu ? 32 : 512;
