@@ -1,0 +1,100 @@
+#include "meshing/surface_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
+
+#include "exchange/error.hpp"
+#include "meshing/surface_formats.hpp"
+
+namespace hemoflux::meshing {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    const char* extension;
+    SurfaceMesh (*parse)(const std::string&);
+    std::string (*print)(const SurfaceMesh&);
+};
+
+const Format& format_of(const fs::path& path) {
+    static constexpr Format formats[] = {{".vtp", parse_vtp, print_vtp},
+                                         {".ply", parse_ply, print_ply},
+                                         {".stl", parse_stl, print_stl},
+                                         {".obj", parse_obj, print_obj}};
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const Format& format : formats)
+        if (extension == format.extension) return format;
+    throw InputError("surface file " + path.string(),
+                     fmt::format("its extension \"{}\" is not known", extension),
+                     "Use .vtp, .ply, .stl or .obj");
+}
+
+std::string reason_of(int error) { return std::generic_category().message(error); }
+
+[[noreturn]] void unreadable(const fs::path& path, const std::string& reason) {
+    throw FileError("surface file " + path.string(), "it cannot be read: " + reason,
+                    "Check the path and its permissions");
+}
+
+[[noreturn]] void malformed(const fs::path& path, const std::string& reason) {
+    throw InputError("surface file " + path.string(), "it is malformed: " + reason,
+                     "Export the surface again, as triangles");
+}
+
+std::string text_of(const fs::path& path) {
+    std::error_code ignored;
+    if (fs::is_directory(path, ignored)) unreadable(path, reason_of(EISDIR));
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in) unreadable(path, reason_of(errno));
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (in.bad()) unreadable(path, reason_of(errno));
+    return text;
+}
+
+bool finite(const Vec3d& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+}  // namespace
+
+SurfaceMesh read_surface(const fs::path& path) {
+    const Format& format = format_of(path);
+    const std::string text = text_of(path);
+    if (text.empty()) malformed(path, "it is empty");
+    SurfaceMesh mesh;
+    try {
+        mesh = format.parse(text);
+    } catch (const std::exception& error) {  // FormatError, or what a library throws at absurd sizes
+        malformed(path, error.what());
+    }
+    if (mesh.triangles.empty()) malformed(path, "it has no triangles");
+    const auto bad = std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), finite);
+    if (bad != mesh.vertices.end())
+        malformed(path,
+                  fmt::format("the coordinates of vertex {} are not finite", bad - mesh.vertices.begin()));
+    return mesh;
+}
+
+void write_surface(const fs::path& path, const SurfaceMesh& mesh) {
+    const std::string text = format_of(path).print(mesh);
+    errno = 0;
+    std::ofstream out(path, std::ios::binary);
+    if (out) out.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
+    if (!out)
+        throw FileError("surface file " + path.string(), "it cannot be written: " + reason_of(errno),
+                        "Check that the folder exists, is writable and has space left");
+}
+
+}  // namespace hemoflux::meshing

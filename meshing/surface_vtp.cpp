@@ -1,0 +1,97 @@
+// VTP: VTK's XML PolyData.
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringOutputWindow.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <cstddef>
+
+#include "meshing/surface_formats.hpp"
+
+namespace hemoflux::meshing {
+namespace {
+
+// Collects what VTK would print, to make it part of our message.
+class Listener {
+  public:
+    Listener() : previous_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(window_); }
+    ~Listener() { vtkOutputWindow::SetInstance(previous_); }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    // "ERROR: In file, line n\nvtkClass (0x...): what\n\n" -> "what", of the first error; empty if there was
+    // none
+    [[nodiscard]] std::string first_error() {
+        const std::string text = window_->GetOutput();
+        const std::size_t begin = text.find("): ");
+        if (begin == std::string::npos) return text;
+        const std::size_t end = text.find('\n', begin);
+        return text.substr(begin + 3, end == std::string::npos ? end : end - begin - 3);
+    }
+
+  private:
+    vtkSmartPointer<vtkOutputWindow> previous_;
+    vtkNew<vtkStringOutputWindow> window_;
+};
+
+}  // namespace
+
+SurfaceMesh parse_vtp(const std::string& text) {
+    Listener listener;
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(text);
+    reader->Update();
+    const std::string error = listener.first_error();
+    if (!error.empty()) throw FormatError(error);
+    vtkPolyData* data = reader->GetOutput();
+    if (data->GetNumberOfStrips() > 0) throw FormatError("it holds triangle strips instead of triangles");
+    SurfaceMesh mesh;
+    mesh.vertices.reserve(static_cast<std::size_t>(data->GetNumberOfPoints()));
+    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+        double p[3];
+        data->GetPoint(i, p);
+        mesh.vertices.push_back({p[0], p[1], p[2]});
+    }
+    vtkCellArray* cells = data->GetPolys();
+    for (vtkIdType f = 0; f < cells->GetNumberOfCells(); ++f) {
+        vtkIdType corners = 0;
+        const vtkIdType* ids = nullptr;
+        cells->GetCellAtId(f, corners, ids);
+        if (corners != 3) throw FormatError(fmt::format("face {} has {} corners instead of 3", f, corners));
+        Triangle triangle{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (ids[i] < 0 || ids[i] >= data->GetNumberOfPoints())
+                throw FormatError(
+                    fmt::format("face {} names vertex {} of {}", f, ids[i], data->GetNumberOfPoints()));
+            triangle[i] = static_cast<int>(ids[i]);
+        }
+        mesh.triangles.push_back(triangle);
+    }
+    return mesh;
+}
+
+std::string print_vtp(const SurfaceMesh& mesh) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const Vec3d& p : mesh.vertices) points->InsertNextPoint(p.x, p.y, p.z);
+    vtkNew<vtkCellArray> cells;
+    for (const auto& [a, b, c] : mesh.triangles) cells->InsertNextCell({a, b, c});
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetPolys(cells);
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(data);
+    writer->SetDataModeToBinary();
+    writer->WriteToOutputStringOn();
+    writer->Write();
+    return writer->GetOutputString();
+}
+
+}  // namespace hemoflux::meshing
