@@ -91,7 +91,7 @@ void check_binary_stl(const std::string& text) {
 
 SurfaceMesh parse_ply(const std::string& text) {
     return parse(text, "PLY", [](auto& in, auto& points, auto& polygons) {
-        return CGAL::IO::read_PLY(in, points, polygons);
+        return CGAL::IO::read_PLY(in, points, polygons, CGAL::parameters::verbose(false));
     });
 }
 

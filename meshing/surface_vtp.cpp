@@ -1,12 +1,11 @@
 // VTP: VTK's XML PolyData.
 #include <fmt/format.h>
 #include <vtkCellArray.h>
+#include <vtkCommand.h>
+#include <vtkExecutive.h>
 #include <vtkNew.h>
-#include <vtkOutputWindow.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringOutputWindow.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -17,39 +16,41 @@
 namespace hemoflux::meshing {
 namespace {
 
-// Collects what VTK would print, to make it part of our message.
-class Listener {
+// Keeps the first error of the objects it observes, which VTK would print otherwise.
+class Listener : public vtkCommand {
   public:
-    Listener() : previous_(vtkOutputWindow::GetInstance()) { vtkOutputWindow::SetInstance(window_); }
-    ~Listener() { vtkOutputWindow::SetInstance(previous_); }
-    Listener(const Listener&) = delete;
-    Listener& operator=(const Listener&) = delete;
+    static Listener* New() { return new Listener; }
 
-    // "ERROR: In file, line n\nvtkClass (0x...): what\n\n" -> "what", of the first error; empty if there was
-    // none
-    [[nodiscard]] std::string first_error() {
-        const std::string text = window_->GetOutput();
+    void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* data) override {
+        if (first_.empty()) first_ = said(static_cast<const char*>(data));
+    }
+
+    [[nodiscard]] const std::string& first() const { return first_; }
+
+  private:
+    // "ERROR: In file, line n\nvtkClass (0x...): what\n\n" -> "what"
+    static std::string said(const std::string& text) {
         const std::size_t begin = text.find("): ");
         if (begin == std::string::npos) return text;
         const std::size_t end = text.find('\n', begin);
         return text.substr(begin + 3, end == std::string::npos ? end : end - begin - 3);
     }
 
-  private:
-    vtkSmartPointer<vtkOutputWindow> previous_;
-    vtkNew<vtkStringOutputWindow> window_;
+    std::string first_;
 };
 
 }  // namespace
 
 SurfaceMesh parse_vtp(const std::string& text) {
-    Listener listener;
+    vtkNew<Listener> listener;
     vtkNew<vtkXMLPolyDataReader> reader;
+    reader->AddObserver(vtkCommand::ErrorEvent, listener);
+    reader->SetParserErrorObserver(listener);
+    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
     reader->ReadFromInputStringOn();
     reader->SetInputString(text);
     reader->Update();
-    const std::string error = listener.first_error();
-    if (!error.empty()) throw FormatError(error);
+    if (!listener->first().empty()) throw FormatError(listener->first());
     vtkPolyData* data = reader->GetOutput();
     if (data->GetNumberOfStrips() > 0) throw FormatError("it holds triangle strips instead of triangles");
     SurfaceMesh mesh;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "exchange/error.hpp"
 #include "meshing/icosphere.hpp"

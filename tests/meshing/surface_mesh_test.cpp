@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 namespace hemoflux::meshing {
 namespace {
@@ -22,7 +26,7 @@ TEST(SurfaceMesh, AreaVolumeAndCentroidOfATetrahedron) {
     EXPECT_NEAR(centroid(mesh).x, 0.25, 1e-15);
     EXPECT_NEAR(centroid(mesh).y, 0.5, 1e-15);
     EXPECT_NEAR(centroid(mesh).z, 0.75, 1e-15);
-    EXPECT_NEAR(reduced_volume(mesh), 6 * std::sqrt(M_PI) / 27, 1e-15);
+    EXPECT_NEAR(reduced_volume(mesh), 6 * std::sqrt(std::numbers::pi) / 27, 1e-15);
     EXPECT_NEAR(area_vector(mesh, 3).x, 3, 1e-15);
     EXPECT_NEAR(area_vector(mesh, 3).y, 1.5, 1e-15);
     EXPECT_NEAR(area_vector(mesh, 3).z, 1, 1e-15);
@@ -52,7 +56,7 @@ TEST(SurfaceMesh, EdgesAndQuality) {
     EXPECT_NEAR(q.shortest_edge, 1, 1e-15);
     EXPECT_NEAR(q.longest_edge, std::sqrt(13.0), 1e-15);
     EXPECT_NEAR(q.mean_edge, (6 + std::sqrt(5.0) + std::sqrt(10.0) + std::sqrt(13.0)) / 6, 1e-15);
-    EXPECT_NEAR(q.smallest_angle, std::atan(1.0 / 3) * 180 / M_PI, 1e-12);
+    EXPECT_NEAR(q.smallest_angle, std::atan(1.0 / 3) * 180 / std::numbers::pi, 1e-12);
     EXPECT_EQ(q.valences, (std::map<int, int>{{3, 4}}));
 }
 
