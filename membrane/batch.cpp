@@ -1,0 +1,230 @@
+#include "membrane/batch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "exchange/error.hpp"
+#include "exchange/memory.hpp"
+#include "exchange/pack.hpp"
+#include "membrane/area.hpp"
+#include "membrane/bending.hpp"
+#include "membrane/volume.hpp"
+
+namespace hemoflux::membrane {
+namespace {
+
+using exchange::Buffer;
+
+std::size_t stride_of(const Topology& topology) {
+    return exchange::round_up(topology.vertices(), exchange::row_alignment);
+}
+
+/// Ring neighbours by slot: row i holds n_i of every vertex, and n_0 from its degree on.
+std::vector<int> neighbour_rows(const Topology& topology) {
+    const std::size_t stride = stride_of(topology), rows = topology.max_degree() + 1;
+    std::vector<int> table(rows * stride, 0);
+    for (std::size_t v = 0; v < topology.vertices(); ++v) {
+        const auto ring = topology.neighbours(v);
+        for (std::size_t i = 0; i < rows; ++i) table[i * stride + v] = i < ring.size() ? ring[i] : ring[0];
+    }
+    return table;
+}
+
+std::vector<double> degrees(const Topology& topology) {
+    std::vector<double> table(stride_of(topology), 0.0);
+    for (std::size_t v = 0; v < topology.vertices(); ++v) table[v] = static_cast<double>(topology.degree(v));
+    return table;
+}
+
+std::vector<int> group_degrees(const Topology& topology) {
+    std::vector<int> table(stride_of(topology) / exchange::row_alignment, 0);
+    for (std::size_t v = 0; v < topology.vertices(); ++v) {
+        int& group = table[v / exchange::row_alignment];
+        group = std::max(group, static_cast<int>(topology.degree(v)));
+    }
+    return table;
+}
+
+/// factor * values^power of the ring's triangles or edges by slot; 1 where a ring has ended.
+template <class Ring>
+std::vector<double> slot_rows(const Topology& topology, Ring ring, const std::vector<double>& values,
+                              double factor, bool inverse) {
+    const std::size_t stride = stride_of(topology);
+    std::vector<double> table(topology.max_degree() * stride, 1.0);
+    for (std::size_t v = 0; v < topology.vertices(); ++v) {
+        const auto items = ring(v);
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const double value = factor * values[static_cast<std::size_t>(items[i])];
+            table[i * stride + v] = inverse ? 1 / value : value;
+        }
+    }
+    return table;
+}
+
+void copy_component(std::vector<double>& host, Buffer<double>& device, std::size_t first) {
+    exchange::copy_to_device(device.data() + first, host.data(), host.size() * sizeof(double));
+}
+
+std::vector<Vec3d> gather_cell(const Buffer<double>& x, const Buffer<double>& y, const Buffer<double>& z,
+                               std::size_t first, std::size_t count) {
+    std::vector<double> a(count), b(count), c(count);
+    exchange::copy_to_host(a.data(), x.data() + first, count * sizeof(double));
+    exchange::copy_to_host(b.data(), y.data() + first, count * sizeof(double));
+    exchange::copy_to_host(c.data(), z.data() + first, count * sizeof(double));
+    std::vector<Vec3d> result(count);
+    for (std::size_t i = 0; i < count; ++i) result[i] = {a[i], b[i], c[i]};
+    return result;
+}
+
+}  // namespace
+
+Batch::Batch(std::shared_ptr<const Topology> topology, const Parameters& parameters,
+             const Reference& reference, std::size_t cells)
+    : topology_(std::move(topology)),
+      parameters_(parameters),
+      cells_(cells),
+      stride_(stride_of(*topology_)),
+      x_(cells * stride_),
+      y_(cells * stride_),
+      z_(cells * stride_),
+      fx_(cells * stride_),
+      fy_(cells * stride_),
+      fz_(cells * stride_),
+      neighbour_(neighbour_rows(*topology_)),
+      group_degree_(group_degrees(*topology_)),
+      degree_(degrees(*topology_)),
+      by_curvature_(cells * stride_),
+      by_area_(cells * stride_),
+      bend_(cells * stride_ * topology_->max_degree()),
+      spring_(cells * stride_ * topology_->max_degree()),
+      inverse_normal_(cells * stride_ * topology_->max_degree()),
+      device_sums_(cells),
+      sums_(cells),
+      scratch_(cells, stride_) {
+    if (cells == 0)
+        throw InputError("a batch of 0 cells", "there is nothing to compute", "Give at least one cell");
+    parameters_.check();
+    set_reference(reference);
+}
+
+void Batch::set_parameters(const Parameters& parameters) {
+    parameters.check();
+    parameters_ = parameters;
+}
+
+void Batch::set_reference(const Reference& reference) {
+    reference.check(*topology_);
+    reference_ = reference;
+    const auto triangles = [this](std::size_t v) { return topology_->ring_triangles(v); };
+    const auto edges = [this](std::size_t v) { return topology_->ring_edges(v); };
+    const double r = reference.stretch_ratio;
+    area0_ = Buffer<double>(slot_rows(*topology_, triangles, reference.triangle_areas, 1, false));
+    inverse_area0_ = Buffer<double>(slot_rows(*topology_, triangles, reference.triangle_areas, 1, true));
+    contour_ = Buffer<double>(slot_rows(*topology_, edges, reference.edge_lengths, r, false));
+    inverse_contour_ = Buffer<double>(slot_rows(*topology_, edges, reference.edge_lengths, r, true));
+}
+
+void Batch::set_positions(std::size_t cell, const std::vector<Vec3d>& positions) {
+    if (positions.size() != vertices())
+        throw std::length_error("Batch::set_positions: wrong number of vertices");
+    std::vector<double> a(vertices()), b(vertices()), c(vertices());
+    for (std::size_t i = 0; i < vertices(); ++i) {
+        a[i] = positions[i].x;
+        b[i] = positions[i].y;
+        c[i] = positions[i].z;
+    }
+    copy_component(a, x_, cell * stride_);
+    copy_component(b, y_, cell * stride_);
+    copy_component(c, z_, cell * stride_);
+}
+
+std::vector<Vec3d> Batch::positions(std::size_t cell) const {
+    return gather_cell(x_, y_, z_, cell * stride_, vertices());
+}
+
+std::vector<Vec3d> Batch::forces(std::size_t cell) const {
+    return gather_cell(fx_, fy_, fz_, cell * stride_, vertices());
+}
+
+ForceView Batch::view() {
+    return {.cells = cells_,
+            .stride = stride_,
+            .slots = topology_->max_degree(),
+            .x = x_.data(),
+            .y = y_.data(),
+            .z = z_.data(),
+            .fx = fx_.data(),
+            .fy = fy_.data(),
+            .fz = fz_.data(),
+            .neighbour = neighbour_.data(),
+            .degree = degree_.data(),
+            .group_degree = group_degree_.data(),
+            .area0 = area0_.data(),
+            .inverse_area0 = inverse_area0_.data(),
+            .contour = contour_.data(),
+            .inverse_contour = inverse_contour_.data(),
+            .by_curvature = by_curvature_.data(),
+            .by_area = by_area_.data(),
+            .bend = bend_.data(),
+            .spring = spring_.data(),
+            .inverse_normal = inverse_normal_.data(),
+            .sums = device_sums_.data(),
+            .k_volume = parameters_.constraint.volume,
+            .k_area = parameters_.constraint.area,
+            .k_local_area = parameters_.constraint.local_area,
+            .k_bending = parameters_.bending.local,
+            .k_area_difference = parameters_.bending.area_difference,
+            .volume0 = reference_.volume,
+            .total_area0 = reference_.area,
+            .curvature0 = reference_.curvature,
+            .total_curvature0 = reference_.total_curvature,
+            .chain = WormLikeChain(parameters_.network.shear, reference_.stretch_ratio)};
+}
+
+bool Batch::try_compute_forces() {
+    const ForceView w = view();
+    curvature_pass(w, scratch_);
+    exchange::copy_to_host(sums_.data(), device_sums_.data(), cells_ * sizeof(CellSums));
+    for (const CellSums& s : sums_)
+        if (s.overstretched > 0) return false;
+    force_pass(w);
+    return true;
+}
+
+void Batch::compute_forces() {
+    if (!try_compute_forces()) report_overstretched();
+}
+
+void Batch::report_overstretched() const {
+    for (std::size_t c = 0; c < cells_; ++c) {
+        if (!(sums_[c].overstretched > 0)) continue;
+        const std::vector<double> lengths = edge_lengths(*topology_, positions(c));
+        for (std::size_t e = 0; e < lengths.size(); ++e) {
+            const double contour = reference_.stretch_ratio * reference_.edge_lengths[e];
+            if (lengths[e] / contour < 1) continue;
+            const Edge& edge = topology_->edges()[e];
+            throw NumericalError(
+                fmt::format("spring {} of cell {}, between vertices {} and {}, is {:.6g} um long", e, c,
+                            edge.v1, edge.v2, lengths[e]),
+                fmt::format("a worm-like chain cannot reach its contour length of {:.6g} um", contour),
+                "Take smaller steps, smaller forces, or longer or stiffer springs");
+        }
+    }
+    throw NumericalError("a spring", "it lies within rounding of its contour length", "Take smaller steps");
+}
+
+Energies Batch::energies(std::size_t cell) const {
+    const CellSums& s = sums_[cell];
+    return {.volume = volume_energy(parameters_.constraint.volume, s.volume, reference_.volume),
+            .area = area_energy(parameters_.constraint.area, s.area, reference_.area),
+            .local_area = s.local_area_energy,
+            .bending = s.helfrich_energy,
+            .area_difference = area_difference_energy(parameters_.bending.area_difference, s.total_curvature,
+                                                      reference_.total_curvature, reference_.area),
+            .shear = s.shear_energy};
+}
+
+}  // namespace hemoflux::membrane

@@ -1,0 +1,74 @@
+/// The membrane's energies and forces in two passes over the rings of all vertices of all cells.
+///
+/// Pass 1 reduces volume, area and total curvature of each cell, and leaves at each vertex dE/dS_j and
+/// dE/dA_j; pass 2 gathers the force -grad E of each vertex from its own ring (volume.hpp, area.hpp,
+/// bending.hpp, wlc.hpp). Every vertex is written by one task alone: no atomics, and the same bits for any
+/// number of threads.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "exchange/macros.hpp"
+#include "membrane/wlc.hpp"
+
+namespace hemoflux::membrane {
+
+/// Sums over one cell.
+struct CellSums {
+    double volume = 0;             ///< V, um^3
+    double area = 0;               ///< A, um^2
+    double total_curvature = 0;    ///< M = sum theta_s L_s, um
+    double local_area_energy = 0;  ///< 1e-17 J
+    double helfrich_energy = 0;    ///< 1e-17 J
+    double shear_energy = 0;       ///< 1e-17 J
+    double overstretched = 0;      ///< positive when a spring has reached its contour length
+
+    HEMOFLUX_FN CellSums& operator+=(const CellSums& b) {
+        volume += b.volume, area += b.area, total_curvature += b.total_curvature;
+        local_area_energy += b.local_area_energy, helfrich_energy += b.helfrich_energy;
+        shear_energy += b.shear_energy, overstretched += b.overstretched;
+        return *this;
+    }
+};
+
+/// Device pointers and scalars of one evaluation. Vertex v of cell c is at c * stride + v; ring slot i of
+/// vertex v at i * stride + v, in per-cell data after c * slots * stride.
+struct ForceView {
+    std::size_t cells, stride, slots;         ///< slots: the greatest degree
+    const double *x, *y, *z;                  ///< positions, um
+    double *fx, *fy, *fz;                     ///< forces, 1e-11 N
+    const int* neighbour;                     ///< slots + 1 rows; from the degree on, neighbour 0 again
+    const double* degree;                     ///< of each vertex, 0 in the padding
+    const int* group_degree;                  ///< greatest degree in each group of row_alignment vertices
+    const double *area0, *inverse_area0;      ///< A_k0 of ring triangles and 1/A_k0, slots rows
+    const double *contour, *inverse_contour;  ///< L_c of ring edges and 1/L_c, slots rows
+    double *by_curvature, *by_area;           ///< dE/dS_j and dE/dA_j of each vertex of each cell
+    double *bend, *spring, *inverse_normal;   ///< theta/L, (dE_S/dL)/L and 1/|xi| of each slot of each cell
+    CellSums* sums;                           ///< of each cell
+    double k_volume, k_area, k_local_area, k_bending, k_area_difference;
+    double volume0, total_area0, curvature0, total_curvature0;
+    WormLikeChain chain;
+};
+
+/// Scratch memory of the sums; one per batch.
+class ForceScratch {
+  public:
+    ForceScratch(std::size_t cells, std::size_t stride);
+    ~ForceScratch();
+    ForceScratch(ForceScratch&&) noexcept;
+    ForceScratch& operator=(ForceScratch&&) noexcept;
+
+  private:
+    struct Memory;
+    std::unique_ptr<Memory> memory_;
+    friend void curvature_pass(const ForceView& view, ForceScratch& scratch);
+};
+
+/// Pass 1: fills view.sums, by_curvature, by_area and the slot data from the positions.
+void curvature_pass(const ForceView& view, ForceScratch& scratch);
+
+/// Pass 2: fills the forces; needs pass 1 at the same positions.
+void force_pass(const ForceView& view);
+
+}  // namespace hemoflux::membrane

@@ -1,0 +1,52 @@
+/// The state a membrane strives for: explicit, stored data, never recomputed from the current shape.
+#pragma once
+
+#include <vector>
+
+#include "exchange/vec3.hpp"
+#include "membrane/parameters.hpp"
+#include "membrane/topology.hpp"
+
+namespace hemoflux::membrane {
+
+/// Reference values of all energies of one cell.
+struct Reference {
+    double area = red_blood_cell::area;                    ///< A_0, um^2
+    double volume = red_blood_cell::volume;                ///< V_0, um^3
+    double curvature = 0;                                  ///< C_0, local c_1 + c_2, 1/um
+    double total_curvature = 0;                            ///< M_0, of sum theta_s L_s, um
+    double stretch_ratio = red_blood_cell::stretch_ratio;  ///< r = L_c / L_0
+    std::vector<double> triangle_areas;                    ///< A_k0 of each triangle of the topology, um^2
+    std::vector<double> edge_lengths;                      ///< L_0 of each edge of the topology, um
+
+    /// Throws InputError unless all values are finite, areas, lengths and volume positive, r > 1, and the
+    /// two lists match the topology.
+    void check(const Topology& topology) const;
+};
+
+/// Area of each triangle, um^2.
+std::vector<double> triangle_areas(const Topology& topology, const std::vector<Vec3d>& positions);
+
+/// Length of each edge, um.
+std::vector<double> edge_lengths(const Topology& topology, const std::vector<Vec3d>& positions);
+
+/// Healthy red blood cell, Tables 6.1 and 6.2: A_0, V_0, r, C_0 = c_0/R_0, M_0 = 8 pi R_0; A_k0 and L_0 are
+/// those of `shape`, which shares the topology. A spheroid of semi-axes 1.13360 R_0 (1, 1, 0.65214) gives the
+/// discocyte; the relaxed discocyte itself gives the stress-free cell.
+Reference reference_from_shape(const Topology& topology, const std::vector<Vec3d>& shape,
+                               double reduced_curvature = red_blood_cell::reduced_curvature);
+
+/// Length of the pre-stressed springs over the mean edge of the disc: 0.285 um over 0.246 um at 2562
+/// vertices.
+inline constexpr double uniform_length_ratio = 1.16;
+
+/// As reference_from_shape of a relaxed disc, but with the same L_0 on every edge: `length` um, or 1.16 times
+/// the disc's mean edge on any mesh when length is 0 (Table 6.2).
+Reference uniform_length_reference(const Topology& topology, const std::vector<Vec3d>& disc,
+                                   double length = 0);
+
+/// Semi-axes of the spheroid from which the discocyte takes L_0 and A_k0, over R_0.
+inline constexpr double reference_spheroid_equator = 1.13360;
+inline constexpr double reference_spheroid_pole = 1.13360 * 0.65214;
+
+}  // namespace hemoflux::membrane
