@@ -1,0 +1,79 @@
+#include "apps/output/folder.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <regex>
+#include <system_error>
+#include <vector>
+
+#include "apps/output/atomic_file.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::output {
+namespace fs = std::filesystem;
+namespace {
+
+void make(const fs::path& path) {
+    std::error_code error;
+    fs::create_directories(path, error);
+    if (!fs::is_directory(path))
+        throw FileError("cannot make the output folder " + path.string(),
+                        error ? error.message() : "there is a file of that name",
+                        "Choose another folder with --output");
+}
+
+void prove_writable(const fs::path& path) {
+    const fs::path probe = path / fmt::format(".probe-{}", ::getpid());
+    try {
+        write_file(probe, "probe\n");
+    } catch (const FileError& error) {
+        throw FileError("the output folder " + path.string() + " is not writable", error.what(),
+                        "Choose another folder with --output");
+    }
+    fs::remove(probe);
+}
+
+void remove_run(const fs::path& path) {
+    std::vector<fs::path> old;
+    for (const auto& entry : fs::directory_iterator(path))
+        if (entry.is_regular_file() && is_run_file(entry.path().filename().string()))
+            old.push_back(entry.path());
+    // the marker goes last: a folder that is only half cleared is still known as a run
+    const fs::path marker = path / "resolved.toml";
+    std::error_code error;
+    for (const fs::path& file : old)
+        if (file != marker) fs::remove(file, error);
+    fs::remove(marker, error);
+}
+
+}  // namespace
+
+bool is_run_file(const std::string& name) {
+    static const std::regex pattern(
+        R"(resolved\.toml|summary\.json|history\.csv|stretch\.csv|log\.txt|)"
+        R"((fluid|cells)(\.pvd|_\d+\.vt[rup])|checkpoint_\d+\.bin|last_good_\d+\.vt[rup]|)"
+        R"((picture|plot)_[A-Za-z0-9_]+\.(png|svg)|\..+\.tmp)");
+    return std::regex_match(name, pattern);
+}
+
+OutputFolder::OutputFolder(fs::path path, Folder mode) : path_(std::move(path)) {
+    const bool run = fs::exists(resolved());
+    if (mode == Folder::restart && !run)
+        throw InputError("cannot restart from " + path_.string(), "it holds no run (no resolved.toml)",
+                         "Give the output folder of the run that is to be continued");
+    std::error_code error;
+    if (mode == Folder::fresh && !run && fs::is_directory(path_, error) && !fs::is_empty(path_, error))
+        throw InputError(
+            "the output folder " + path_.string() + " is not empty",
+            "it holds files that are not of a Hemoflux run and could be mixed up with its results",
+            "Choose another folder with --output, or empty this one");
+    make(path_);
+    prove_writable(path_);
+    if (mode == Folder::fresh && run) remove_run(path_);
+}
+
+fs::path OutputFolder::fluid_file(int frame) const { return path_ / fmt::format("fluid_{:04}.vtr", frame); }
+fs::path OutputFolder::cell_file(int frame) const { return path_ / fmt::format("cells_{:04}.vtp", frame); }
+
+}  // namespace hemoflux::output

@@ -1,0 +1,107 @@
+#include "apps/output/vtk_writer.hpp"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkRectilinearGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLRectilinearGridWriter.h>
+
+#include <stdexcept>
+
+#include "apps/output/atomic_file.hpp"
+
+namespace hemoflux::output {
+namespace {
+
+vtkNew<vtkDoubleArray> to_vtk(const std::string& name, int components, const std::vector<double>& values) {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName(name.c_str());
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+void add_arrays(vtkDataSetAttributes* attributes, const std::vector<DataArray>& arrays, std::size_t tuples) {
+    for (const DataArray& a : arrays) {
+        if (a.components < 1 || a.values.size() != tuples * static_cast<std::size_t>(a.components))
+            throw std::invalid_argument("write: array " + a.name +
+                                        " does not have one tuple per cell or vertex");
+        attributes->AddArray(to_vtk(a.name, a.components, a.values));
+    }
+}
+
+/// Serialises in memory, so that the file itself is written atomically and its errors are ours to report.
+template <class Writer, class Data>
+void write(const std::filesystem::path& path, Data* data, double time) {
+    data->GetFieldData()->AddArray(to_vtk("TimeValue", 1, {time}));
+    vtkNew<Writer> writer;
+    writer->SetInputData(data);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToZLib();
+    writer->SetCompressionLevel(1);  // doubles hardly shrink further, and the run waits for it
+    writer->WriteToOutputStringOn();
+    writer->Write();
+    write_file(path, writer->GetOutputString());
+}
+
+}  // namespace
+
+DataArray vector_array(std::string name, const std::vector<double>& x, const std::vector<double>& y,
+                       const std::vector<double>& z) {
+    if (x.size() != y.size() || x.size() != z.size())
+        throw std::invalid_argument("vector_array: components of " + name + " differ in size");
+    DataArray out{std::move(name), 3, std::vector<double>(3 * x.size())};
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        out.values[3 * i] = x[i];
+        out.values[3 * i + 1] = y[i];
+        out.values[3 * i + 2] = z[i];
+    }
+    return out;
+}
+
+void write_fluid(const std::filesystem::path& path, const std::array<meshing::Axis, 3>& axes,
+                 const std::vector<DataArray>& cell_data, double time) {
+    vtkNew<vtkRectilinearGrid> grid;
+    grid->SetDimensions(static_cast<int>(axes[0].faces.size()), static_cast<int>(axes[1].faces.size()),
+                        static_cast<int>(axes[2].faces.size()));
+    grid->SetXCoordinates(to_vtk("x_um", 1, axes[0].faces));
+    grid->SetYCoordinates(to_vtk("y_um", 1, axes[1].faces));
+    grid->SetZCoordinates(to_vtk("z_um", 1, axes[2].faces));
+    add_arrays(grid->GetCellData(), cell_data, axes[0].cells() * axes[1].cells() * axes[2].cells());
+    write<vtkXMLRectilinearGridWriter>(path, grid.Get(), time);
+}
+
+void write_cells(const std::filesystem::path& path, const std::vector<meshing::SurfaceMesh>& cells,
+                 const std::vector<DataArray>& point_data, double time) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    vtkNew<vtkCellArray> triangles;
+    vtkNew<vtkIntArray> index;
+    index->SetName("cell");
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const vtkIdType first = points->GetNumberOfPoints();
+        for (const Vec3d& v : cells[c].vertices) {
+            points->InsertNextPoint(v.x, v.y, v.z);
+            index->InsertNextValue(static_cast<int>(c));
+        }
+        for (const meshing::Triangle& t : cells[c].triangles)
+            triangles->InsertNextCell({first + t[0], first + t[1], first + t[2]});
+    }
+    vtkNew<vtkPolyData> surface;
+    surface->SetPoints(points);
+    surface->SetPolys(triangles);
+    surface->GetPointData()->AddArray(index);
+    add_arrays(surface->GetPointData(), point_data, static_cast<std::size_t>(points->GetNumberOfPoints()));
+    write<vtkXMLPolyDataWriter>(path, surface.Get(), time);
+}
+
+}  // namespace hemoflux::output

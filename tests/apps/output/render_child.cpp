@@ -1,0 +1,11 @@
+// The child process of the pictures: what `hemoflux render-pictures` does.
+#include <string>
+#include <vector>
+
+#include "apps/output/pictures.hpp"
+
+int main(int argc, char** argv) {
+    const std::vector<std::string> words(argv + 1, argv + argc);
+    if (words.empty() || words.front() != "render-pictures") return 2;
+    return hemoflux::output::render_pictures_main({words.begin() + 1, words.end()});
+}
