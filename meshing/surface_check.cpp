@@ -51,8 +51,7 @@ struct Checker {
                 for (const int v : mesh.triangles[t]) used[static_cast<std::size_t>(v)] = 1;
         }
         if (!bad.empty())
-            refuse(fmt::format("{} repeat a vertex or name one that is not there",
-                               listed("triangle", "triangles", bad)),
+            refuse(fmt::format("a vertex is repeated or unknown in {}", listed("triangle", "triangles", bad)),
                    fmt::format("Use three different vertices from 0 to {}", n - 1));
         bad.clear();
         for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -62,7 +61,7 @@ struct Checker {
             if (!used[v]) unused.push_back(static_cast<int>(v));
         }
         if (!bad.empty())
-            refuse(fmt::format("the coordinates of {} are not finite", listed("vertex", "vertices", bad)),
+            refuse(fmt::format("coordinates that are not finite at {}", listed("vertex", "vertices", bad)),
                    "Correct the coordinates");
         if (!unused.empty())
             refuse(fmt::format("no triangle uses {}", listed("vertex", "vertices", unused)),
@@ -111,12 +110,12 @@ struct Checker {
             i = end;
         }
         if (!crowded.empty())
-            refuse(fmt::format("it is not 2-manifold, {} belong to more than two triangles ({})",
+            refuse(fmt::format("it is not 2-manifold, more than two triangles meet at {} ({})",
                                listed("edge", "edges", crowded),
                                listed("triangle", "triangles", beside_crowded)),
                    "Remove inner walls and doubled triangles");
         if (!open.empty())
-            refuse(fmt::format("it is open, {} have a triangle on one side only ({})",
+            refuse(fmt::format("it is open, a triangle on one side only at {} ({})",
                                listed("edge", "edges", open), listed("triangle", "triangles", beside_open)),
                    "Close the holes, or merge coincident vertices");
         if (!clashing.empty())
@@ -172,7 +171,7 @@ struct Checker {
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
             if (!(norm(area_vector(mesh, t)) > 1e-12 * mean)) flat.push_back(static_cast<int>(t));
         if (!flat.empty())
-            refuse(fmt::format("{} have no area", listed("triangle", "triangles", flat)),
+            refuse(fmt::format("no area in {}", listed("triangle", "triangles", flat)),
                    "Remove degenerate triangles");
         const double v = volume(mesh);
         if (!(v > 0))
