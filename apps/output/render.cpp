@@ -96,14 +96,15 @@ SceneSpec scene_spec(const std::vector<FrameData>& frames, const PictureSpec& sp
     return scene;
 }
 
-/// The vertex of each cell that lies farthest in x.
+/// The vertex of each cell that lies farthest towards x and the camera (z).
 std::vector<long long> farthest_vertices(vtkPolyData* cells) {
     vtkDataArray* index = cells->GetPointData()->GetArray("cell");
     std::vector<long long> marked;
     for (vtkIdType p = 0; p < cells->GetNumberOfPoints(); ++p) {
         const auto c = static_cast<std::size_t>(index ? index->GetTuple1(p) : 0);
         if (c >= marked.size()) marked.resize(c + 1, p);
-        if (cells->GetPoint(p)[0] > cells->GetPoint(marked[c])[0]) marked[c] = p;
+        const auto reach = [cells](vtkIdType q) { return cells->GetPoint(q)[0] + cells->GetPoint(q)[2]; };
+        if (reach(p) > reach(marked[c])) marked[c] = p;
     }
     return marked;
 }

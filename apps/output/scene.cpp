@@ -10,9 +10,8 @@
 #include <vtkDataSetMapper.h>
 #include <vtkGlyph3D.h>
 #include <vtkImageData.h>
-#include <vtkLight.h>
+#include <vtkLightKit.h>
 #include <vtkLookupTable.h>
-#include <vtkOutlineSource.h>
 #include <vtkPlane.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
@@ -41,8 +40,8 @@ vtkSmartPointer<vtkLookupTable> blues(double maximum) {
     vtkNew<vtkColorTransferFunction> scale;
     scale->SetColorSpaceToLab();
     scale->AddRGBPoint(0.0, 0.97, 0.98, 1.0);
-    scale->AddRGBPoint(0.5, 0.45, 0.70, 0.86);
-    scale->AddRGBPoint(1.0, 0.03, 0.22, 0.46);
+    scale->AddRGBPoint(0.5, 0.55, 0.77, 0.90);
+    scale->AddRGBPoint(1.0, 0.13, 0.44, 0.71);
     auto table = vtkSmartPointer<vtkLookupTable>::New();
     constexpr int n = 256;
     table->SetNumberOfTableValues(n);
@@ -91,6 +90,9 @@ Scene::Scene(SceneSpec spec) : spec_(std::move(spec)), colours_(blues(spec_.maxi
     window_->SetMultiSamples(8);
     window_->AddRenderer(renderer_);
     renderer_->SetBackground(1, 1, 1);
+    vtkNew<vtkLightKit> lights;
+    lights->SetKeyLightIntensity(0.9);
+    lights->AddLightsToRenderer(renderer_);
 }
 
 Scene::~Scene() = default;
@@ -100,7 +102,7 @@ vtkSmartPointer<vtkImageData> Scene::draw(const FrameData& frame) {
     if (frame.fluid && !spec_.array.empty()) {
         add_slice(frame.fluid);
         add_arrows(frame.fluid);
-        add_box();
+        add_scale();
     }
     if (frame.cells) add_cells(frame.cells);
     add_texts(frame.time);
@@ -159,6 +161,7 @@ void Scene::add_arrows(vtkRectilinearGrid* fluid) {
     vtkDataSet* probed = probe->GetOutput();
     probed->GetPointData()->SetActiveVectors(spec_.array.c_str());
     vtkNew<vtkArrowSource> arrow;
+    arrow->SetArrowOriginToCenter();
     arrow->SetTipLength(0.3);
     arrow->SetTipRadius(0.1);
     arrow->SetShaftRadius(0.03);
@@ -192,7 +195,7 @@ void Scene::add_cells(vtkPolyData* cells) {
     look->SetColor(0.78, 0.13, 0.12);
     look->SetAmbient(0.18);
     look->SetDiffuse(0.85);
-    look->SetSpecular(0.25);
+    look->SetSpecular(0.15);
     look->SetSpecularPower(25);
     look->SetInterpolationToPhong();
     renderer_->AddActor(actor);
@@ -214,17 +217,7 @@ void Scene::add_cells(vtkPolyData* cells) {
     }
 }
 
-void Scene::add_box() {
-    vtkNew<vtkOutlineSource> outline;
-    outline->SetBounds(spec_.bounds.data());
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(outline->GetOutputPort());
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    actor->GetProperty()->SetColor(0.55, 0.55, 0.55);
-    actor->GetProperty()->SetLineWidth(1.5F);
-    actor->GetProperty()->LightingOff();
-    renderer_->AddActor(actor);
+void Scene::add_scale() {
     vtkNew<vtkScalarBarActor> bar;
     bar->SetLookupTable(colours_);
     bar->SetTitle(fmt::format("{}\n ", caption(spec_.array)).c_str());
@@ -233,7 +226,7 @@ void Scene::add_box() {
     bar->UnconstrainedFontSizeOn();
     style(bar->GetTitleTextProperty(), spec_.height / 45);
     style(bar->GetLabelTextProperty(), spec_.height / 50);
-    bar->SetPosition(0.87, 0.22);
+    bar->SetPosition(0.885, 0.22);
     bar->SetWidth(0.10);
     bar->SetHeight(0.56);
     bar->SetBarRatio(0.22);
@@ -245,7 +238,7 @@ void Scene::add_texts(double time) {
     label->SetInput(fmt::format("{} {:.2f}", spec_.time_label, time).c_str());
     style(label->GetTextProperty(), spec_.height / 28);
     label->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-    label->SetPosition(0.03, 0.93);
+    label->SetPosition(0.03, 0.945);
     renderer_->AddActor2D(label);
     vtkNew<vtkTextActor> size;
     size->SetInput(fmt::format("{:.3g} x {:.3g} x {:.3g} um", extent(spec_.bounds, 0),
@@ -253,24 +246,25 @@ void Scene::add_texts(double time) {
                        .c_str());
     style(size->GetTextProperty(), spec_.height / 45);
     size->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-    size->SetPosition(0.03, 0.03);
+    size->SetPosition(0.03, 0.015);
     renderer_->AddActor2D(size);
 }
 
 void Scene::set_camera() {
     const auto& b = spec_.bounds;
     vtkCamera* camera = renderer_->GetActiveCamera();
+    // outside everything drawn; with a parallel projection the distance changes nothing else
+    const double distance = 2 * (extent(b, 0) + extent(b, 1) + extent(b, 2));
     camera->ParallelProjectionOn();
     camera->SetFocalPoint(middle(b, 0), middle(b, 1), middle(b, 2));
-    camera->SetPosition(middle(b, 0), middle(b, 1), middle(b, 2) + 1);
+    camera->SetPosition(middle(b, 0), middle(b, 1), middle(b, 2) + distance);
     camera->SetViewUp(0, 1, 0);
-    camera->Azimuth(-24);
-    camera->Elevation(18);
+    camera->Azimuth(-18);
+    camera->Elevation(16);
     camera->OrthogonalizeViewUp();
-    double box[6];
-    std::copy(b.begin(), b.end(), box);
-    renderer_->ResetCamera(box);
-    camera->Zoom(1.25);
+    camera->SetParallelScale(0.58 * std::max(extent(b, 1), 1.15 * extent(b, 0) * spec_.height / spec_.width));
+    // a little to the left, for the colour scale
+    camera->SetWindowCenter(0.06, 0);
     renderer_->ResetCameraClippingRange();
 }
 

@@ -1,4 +1,5 @@
-/// What one picture of a run is made of: actors for the cells, the velocity slice, arrows, box and texts.
+/// What one picture of a run is made of: actors for the cells, the velocity slice, arrows, colour scale and
+/// texts.
 #pragma once
 
 #include <vtkNew.h>
@@ -50,7 +51,7 @@ class Scene {
     void add_slice(vtkRectilinearGrid* fluid);
     void add_arrows(vtkRectilinearGrid* fluid);
     void add_cells(vtkPolyData* cells);
-    void add_box();
+    void add_scale();
     void add_texts(double time);
     void set_camera();
 

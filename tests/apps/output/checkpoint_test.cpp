@@ -104,7 +104,8 @@ TEST_F(CheckpointTest, NamesWhatDoesNotFitTheCase) {
 }
 
 TEST_F(CheckpointTest, KeepsTheLastTwo) {
-    for (const long long step : {100LL, 200LL, 300LL, 12345678901LL}) write_rotating(folder_, step, example());
+    for (const long long step : {100LL, 200LL, 300LL, 12345678901LL})
+        write_rotating(folder_, step, example());
     EXPECT_FALSE(std::filesystem::exists(checkpoint_file(folder_, 200)));
     EXPECT_TRUE(std::filesystem::exists(checkpoint_file(folder_, 300)));
     EXPECT_EQ(latest_checkpoint(folder_).path, checkpoint_file(folder_, 12345678901LL));
