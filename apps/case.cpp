@@ -1,0 +1,240 @@
+#include "apps/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/case_rules.hpp"
+#include "apps/toml_input.hpp"
+#include "apps/units.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+/// The enumerator of a word; words stand in the order of the enumerators and are known to the schema.
+template <class Enum>
+Enum chosen(const std::string& word, std::initializer_list<const char*> words) {
+    const auto found = std::find(words.begin(), words.end(), word);
+    return static_cast<Enum>(found - words.begin());
+}
+
+FluidInput read_fluid(const Section& in, bool sheared) {
+    const std::string initial = in.text("initial");
+    const bool shear = initial == "shear" || (initial == "auto" && sheared);
+    return {in.number("density"), in.number("viscosity"), shear ? InitialFlow::shear : InitialFlow::rest};
+}
+
+GridInput read_grid(const Section& in) {
+    GridInput grid;
+    const std::vector<std::string> kinds = in.texts("kind");
+    const std::vector<double> length = in.numbers("length");
+    const std::vector<double> cells = in.numbers("cells");
+    if (const auto plateau = in.table("plateau")) {
+        grid.plateau_a = plateau->number("a");
+        grid.plateau_b = plateau->number("b");
+    }
+    const auto faces = in.table("faces");
+    const double scale = faces ? conversion(faces->text("unit"), "um") : 1.0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        grid.kind[d] = chosen<AxisKind>(kinds[kinds.size() == 3 ? d : 0],
+                                        {"uniform", "plateau", "chebyshev", "explicit"});
+        if (grid.kind[d] == AxisKind::given) {
+            grid.faces[d] = faces ? faces->numbers(std::string(1, "xyz"[d])) : std::vector<double>();
+            for (double& face : grid.faces[d]) {
+                face *= scale;
+            }
+        } else if (!length.empty() && !cells.empty()) {
+            grid.length[d] = length[d];
+            grid.cells[d] = static_cast<int>(cells[d]);
+            grid.lower[d] = in.text("origin") == "corner" ? 0.0 : -length[d] / 2;
+        }
+    }
+    return grid;
+}
+
+PatchInput read_patch(const Section& in) {
+    PatchInput patch;
+    const std::vector<double> vector = in.numbers("velocity");
+    if (!vector.empty()) {
+        patch.velocity = VelocityCondition::vector;
+        patch.vector = in.vector("velocity");
+    } else {
+        patch.velocity = chosen<VelocityCondition>(
+            in.text("velocity"), {"periodic", "shear", "no-slip", "zero-gradient", "symmetry"});
+    }
+    const std::string text = in.text("density");
+    if (const auto value = in.maybe("density")) {
+        patch.density = text.empty() ? DensityCondition::density : DensityCondition::pressure;
+        patch.value = *value;
+    }
+    return patch;
+}
+
+CellInput read_cell(const Section& in) {
+    CellInput cell;
+    cell.mesh = in.text("mesh");
+    cell.nodes = in.integer("nodes");
+    cell.file = in.text("file");
+    cell.shape = in.has("file")
+                     ? CellShape::file
+                     : chosen<CellShape>(in.text("shape"), {"discocyte", "sphere", "spheroid", "evans-fung"});
+    cell.reduced_volume = in.number("reduced_volume");
+    cell.reference =
+        chosen<MembraneReference>(in.text("reference"), {"stress-free", "uniform", "spheroid", "file"});
+    cell.reference_file = in.text("reference_file");
+    cell.reference_reduced_volume = in.number("reference_reduced_volume");
+    cell.shear_modulus = in.number("shear_modulus");
+    cell.spring_length = in.maybe("spring_length");
+    cell.spring_ratio = in.number("spring_ratio");
+    cell.volume_modulus = in.number("volume_modulus");
+    cell.area_modulus = in.number("area_modulus");
+    cell.local_area_modulus = in.number("local_area_modulus");
+    cell.bending_modulus = in.number("bending_modulus");
+    cell.ade_modulus = in.number("ade_modulus");
+    cell.spontaneous_curvature = in.number("spontaneous_curvature");
+    cell.relaxed_area_difference = in.number("relaxed_area_difference");
+    cell.membrane_viscosity = in.number("membrane_viscosity");
+    cell.area = in.number("area");
+    cell.volume = in.number("volume");
+    cell.cytosol_viscosity = in.number("cytosol_viscosity");
+    cell.position = in.vector("position");
+    cell.axis = in.vector("axis");
+    return cell;
+}
+
+TimeInput read_time(const Section& in) {
+    return {chosen<TimeScheme>(in.text("scheme"), {"euler", "rk4", "factored"}), in.maybe("strain"),
+            in.maybe("duration"), in.maybe("step")};
+}
+
+NumericsInput read_numerics(const Section& in) {
+    return {in.number("lattice_viscosity"), in.number("reynolds"), in.maybe("mach"),
+            in.maybe("step_strain"),        in.number("gamma"),    in.number("tau_floor")};
+}
+
+OutputInput read_output(const Section& in) {
+    OutputInput output{in.number("interval_strain"),
+                       in.maybe("interval"),
+                       in.number("history_interval_strain"),
+                       in.number("checkpoint_interval_strain"),
+                       in.texts("fields"),
+                       in.flag("pictures"),
+                       {}};
+    if (const std::vector<double> window = in.numbers("window_strain"); !window.empty()) {
+        output.window_strain = {window[0], window[1]};
+    }
+    return output;
+}
+
+Case read_values(const toml::table& values) {
+    const Section in(case_schema(), values);
+    Case c;
+    c.title = in.text("title");
+    c.kind = chosen<CaseKind>(in.text("kind"), {"coupled", "fluid", "membrane"});
+    if (const auto shear = in.table("shear")) {
+        c.shear_rate = shear->number("rate");
+    }
+    if (const auto fluid = in.table("fluid")) {
+        c.fluid = read_fluid(*fluid, c.shear_rate.has_value());
+    }
+    if (const auto grid = in.table("grid")) {
+        c.grid = read_grid(*grid);
+    }
+    if (const auto boundary = in.table("boundary")) {
+        for (std::size_t d = 0; d < 3; ++d) {
+            for (std::size_t side = 0; side < 2; ++side) {
+                const std::string both(1, "xyz"[d]);
+                const std::string one = both + "-+"[side];
+                const auto patch = boundary->table(boundary->has(one) ? one : both);
+                c.boundary[d][side] = patch ? read_patch(*patch) : PatchInput{};
+            }
+        }
+    }
+    if (const auto force = in.table("body_force")) {
+        c.acceleration = force->vector("acceleration");
+    }
+    for (const Section& cell : in.tables("cell")) {
+        c.cells.push_back(read_cell(cell));
+    }
+    if (const auto coupling = in.table("coupling")) {
+        c.coupling = {chosen<Kernel>(coupling->text("kernel"), {"lagrange", "phi2", "phi3", "phi4"}),
+                      coupling->flag("recentre"), coupling->number("smoothing")};
+    }
+    if (const auto time = in.table("time")) {
+        c.time = read_time(*time);
+    }
+    if (const auto numerics = in.table("numerics")) {
+        c.numerics = read_numerics(*numerics);
+    }
+    if (const auto membrane = in.table("membrane")) {
+        c.membrane = {chosen<MembraneTask>(membrane->text("task"), {"relax", "stretch"}),
+                      membrane->numbers("forces"), membrane->number("end_fraction"),
+                      membrane->number("tolerance")};
+    }
+    if (const auto output = in.table("output")) {
+        c.output = read_output(*output);
+    }
+    for (const Section& r : in.tables("reference")) {
+        c.references.push_back(
+            {r.text("observable"), r.maybe("low"), r.maybe("high"), r.maybe("value"), r.text("source")});
+    }
+    return c;
+}
+
+Case finish(toml::table values, const std::string& name, const std::filesystem::path& folder,
+            const std::vector<std::string>& overrides) {
+    for (const std::string& assignment : overrides) {
+        override_value(values, assignment);
+    }
+    const toml::table resolved = resolve(case_schema(), values, folder);
+    check_rules(resolved, name);
+    Case c = read_values(resolved);
+    for (CellInput& cell : c.cells) {
+        const double length = std::hypot(cell.axis[0], cell.axis[1], cell.axis[2]);
+        for (double& component : cell.axis) {
+            component /= length;
+        }
+    }
+    c.resolved =
+        "# The case as it was run, with every default filled in.\n" + to_toml(case_schema(), resolved);
+    return c;
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return finish(read_toml(file), file.string(), std::filesystem::absolute(file).parent_path(), overrides);
+}
+
+Case parse_case(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                const std::vector<std::string>& overrides) {
+    return finish(parse_toml(text, name), name, folder, overrides);
+}
+
+meshing::RectilinearGrid make_grid(const GridInput& grid) {
+    meshing::RectilinearGrid result;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const double lower = grid.lower[d];
+        const double upper = lower + grid.length[d];
+        switch (grid.kind[d]) {
+            case AxisKind::uniform:
+                result.axes[d] = meshing::uniform_axis(lower, upper, grid.cells[d]);
+                break;
+            case AxisKind::plateau:
+                result.axes[d] =
+                    meshing::plateau_axis(lower, upper, grid.cells[d], grid.plateau_a, grid.plateau_b);
+                break;
+            case AxisKind::chebyshev:
+                result.axes[d] = meshing::chebyshev_axis(lower, upper, grid.cells[d]);
+                break;
+            case AxisKind::given:
+                result.axes[d] = meshing::explicit_axis(grid.faces[d]);
+                break;
+        }
+    }
+    return result;
+}
+
+}  // namespace hemoflux::apps

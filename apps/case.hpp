@@ -1,0 +1,177 @@
+/// A case: everything a run needs to know, as plain numbers in the units named here.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "meshing/rectilinear.hpp"
+
+namespace hemoflux::apps {
+
+using Triple = std::array<double, 3>;
+
+enum class CaseKind { coupled, fluid, membrane };
+enum class InitialFlow { rest, shear };
+enum class AxisKind { uniform, plateau, chebyshev, given };
+enum class VelocityCondition { periodic, shear, no_slip, zero_gradient, symmetry, vector };
+enum class DensityCondition { zero_gradient, density, pressure };
+enum class CellShape { discocyte, sphere, spheroid, evans_fung, file };
+enum class MembraneReference { stress_free, uniform, spheroid, file };
+enum class Kernel { lagrange, phi2, phi3, phi4 };
+enum class TimeScheme { euler, rk4, factored };
+enum class MembraneTask { relax, stretch };
+
+/// [fluid]
+struct FluidInput {
+    double density = 0;    ///< kg/m^3
+    double viscosity = 0;  ///< Pa s
+    InitialFlow initial = InitialFlow::rest;
+    bool operator==(const FluidInput&) const = default;
+};
+
+/// [grid]; lengths in um.
+struct GridInput {
+    std::array<AxisKind, 3> kind{};
+    Triple length{};
+    std::array<int, 3> cells{};
+    Triple lower{};  ///< lower corner of the box
+    double plateau_a = 0, plateau_b = 0;
+    std::array<std::vector<double>, 3> faces;  ///< of explicit axes
+    bool operator==(const GridInput&) const = default;
+};
+
+/// One side of the box.
+struct PatchInput {
+    VelocityCondition velocity = VelocityCondition::periodic;
+    Triple vector{};  ///< um/s, for VelocityCondition::vector
+    DensityCondition density = DensityCondition::zero_gradient;
+    double value = 0;  ///< density relative to the reference density, or pressure above the reference in Pa
+    [[nodiscard]] bool periodic() const { return velocity == VelocityCondition::periodic; }
+    bool operator==(const PatchInput&) const = default;
+};
+
+/// [[cell]]; lengths um, tensions N/m, energies J.
+struct CellInput {
+    std::string mesh;  ///< "icosphere" or the path of a sphere mesh; unused when shape is file
+    int nodes = 0;     ///< of the icosphere
+    CellShape shape = CellShape::discocyte;
+    std::string file;           ///< surface for CellShape::file
+    double reduced_volume = 0;  ///< of CellShape::spheroid
+    MembraneReference reference = MembraneReference::uniform;
+    std::string reference_file;
+    double reference_reduced_volume = 0;
+    double shear_modulus = 0;             ///< K_S, N/m
+    std::optional<double> spring_length;  ///< L_s0, um; empty: 1.16 mean edges of the relaxed disc
+    double spring_ratio = 0;              ///< r
+    double volume_modulus = 0;            ///< K_V, Pa
+    double area_modulus = 0;              ///< K_A, N/m
+    double local_area_modulus = 0;        ///< K_A,k, N/m
+    double bending_modulus = 0;           ///< K_B, J
+    double ade_modulus = 0;               ///< K_ADE, J
+    double spontaneous_curvature = 0;     ///< c0 = C_0 R0
+    double relaxed_area_difference = 0;   ///< M0 / (8 pi R0)
+    double membrane_viscosity = 0;        ///< Pa s m
+    double area = 0;                      ///< A0, um^2
+    double volume = 0;                    ///< V0, um^3
+    double cytosol_viscosity = 0;         ///< Pa s
+    Triple position{};                    ///< um
+    Triple axis{};                        ///< unit vector
+    bool operator==(const CellInput&) const = default;
+};
+
+/// [coupling]
+struct CouplingInput {
+    Kernel kernel = Kernel::lagrange;
+    bool recentre = false;
+    double smoothing = 1;  ///< half-width of the viscosity step in local cells
+    bool operator==(const CouplingInput&) const = default;
+};
+
+/// [time]; exactly one of strain and duration is given.
+struct TimeInput {
+    TimeScheme scheme = TimeScheme::factored;
+    std::optional<double> strain;
+    std::optional<double> duration;  ///< s
+    std::optional<double> step;      ///< s; empty: numerics.step_strain, or chosen
+    bool operator==(const TimeInput&) const = default;
+};
+
+/// [numerics]; empty optionals are chosen by the program.
+struct NumericsInput {
+    double lattice_viscosity = 0.5;  ///< nu/h
+    double reynolds = 2;             ///< Re_G
+    std::optional<double> mach;
+    std::optional<double> step_strain;
+    double gamma = 1;
+    double tau_floor = 0.05;
+    bool operator==(const NumericsInput&) const = default;
+};
+
+/// [membrane]: a cell alone.
+struct MembraneInput {
+    MembraneTask task = MembraneTask::relax;
+    std::vector<double> forces;  ///< pN
+    double end_fraction = 0.02;
+    double tolerance = 2e-4;  ///< pN
+    bool operator==(const MembraneInput&) const = default;
+};
+
+/// [output]
+struct OutputInput {
+    double interval_strain = 0.5;
+    std::optional<double> interval;  ///< s
+    double history_interval_strain = 0.05;
+    double checkpoint_interval_strain = 5;  ///< 0: none
+    std::vector<std::string> fields;        ///< of velocity, density, viscosity, force
+    bool pictures = true;
+    std::optional<std::array<double, 2>> window_strain;  ///< empty: the last 60 % of the run
+    bool operator==(const OutputInput&) const = default;
+};
+
+/// [[reference]]: low and high are infinite where only one is given.
+struct ReferenceInput {
+    std::string observable;
+    std::optional<double> low, high, value;
+    std::string source;
+    bool operator==(const ReferenceInput&) const = default;
+};
+
+/// A whole case. `resolved` is its TOML text with every default filled in; reading that gives an equal case.
+struct Case {
+    std::string title;
+    CaseKind kind = CaseKind::coupled;
+    FluidInput fluid;
+    GridInput grid;
+    std::array<std::array<PatchInput, 2>, 3> boundary{};  ///< [axis][lower, upper]
+    std::optional<double> shear_rate;                     ///< 1/s
+    Triple acceleration{};                                ///< m/s^2
+    std::vector<CellInput> cells;
+    CouplingInput coupling;
+    TimeInput time;
+    NumericsInput numerics;
+    MembraneInput membrane;
+    OutputInput output;
+    std::vector<ReferenceInput> references;
+    std::string resolved;
+    bool operator==(const Case&) const = default;
+
+    /// Whether the axis (0, 1, 2) is periodic.
+    [[nodiscard]] bool periodic(std::size_t axis) const { return boundary[axis][0].periodic(); }
+};
+
+/// Reads a case file, applies the overrides ("table.key=value", in order), checks every key and the keys
+/// against each other. Throws FileError (unreadable) or InputError. check_case() looks at the geometry.
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+/// The same from TOML text; relative paths are seen from `folder`, messages call the text `name`.
+Case parse_case(const std::string& text, const std::string& name = "case",
+                const std::filesystem::path& folder = std::filesystem::current_path(),
+                const std::vector<std::string>& overrides = {});
+
+/// The grid of a case. Throws InputError.
+meshing::RectilinearGrid make_grid(const GridInput& grid);
+
+}  // namespace hemoflux::apps

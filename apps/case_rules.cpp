@@ -1,0 +1,217 @@
+#include "apps/case_rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "apps/schema.hpp"
+#include "apps/toml_input.hpp"
+#include "apps/units.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what, const std::string& why,
+                         const std::string& remedy) {
+    throw InputError(fmt::format("{}: {}", name, what), why, remedy);
+}
+
+void need_tables(const toml::table& values, const std::string& name) {
+    const std::string kind = values["kind"].value_or(std::string());
+    std::vector<std::string> needed;
+    if (kind != "membrane") {
+        needed = {"fluid", "grid", "boundary", "time"};
+    }
+    if (kind != "fluid") {
+        needed.emplace_back("cell");
+    }
+    for (const std::string& table : needed) {
+        const toml::array* array = values[table].as_array();
+        if (!values.contains(table) || (array != nullptr && array->empty())) {
+            const std::string title = table == "cell" ? "[[cell]]" : fmt::format("[{}]", table);
+            refuse(name, fmt::format("table {} is missing", title),
+                   fmt::format("a case of kind \"{}\" needs it", kind),
+                   fmt::format("Add {}; `hemoflux schema` lists its keys", title));
+        }
+    }
+}
+
+/// "periodic", a condition, or nothing, for one side.
+enum class Side { missing, periodic, condition };
+
+Side side_of(const toml::table& boundary, const std::string& key) {
+    if (!boundary.contains(key)) {
+        return Side::missing;
+    }
+    return boundary[key].is_table() ? Side::condition : Side::periodic;
+}
+
+void check_boundary(const toml::table& values, const std::string& name) {
+    const toml::table* boundary = values["boundary"].as_table();
+    if (boundary == nullptr) {
+        return;
+    }
+    for (const std::string axis : {"x", "y", "z"}) {
+        const Side both = side_of(*boundary, axis);
+        const Side lower = side_of(*boundary, axis + "-");
+        const Side upper = side_of(*boundary, axis + "+");
+        if (both != Side::missing) {
+            if (lower != Side::missing || upper != Side::missing) {
+                refuse(name,
+                       fmt::format("boundary.\"{0}\" and boundary.\"{0}{1}\" are both given", axis,
+                                   lower != Side::missing ? "-" : "+"),
+                       "one side would have two conditions",
+                       fmt::format("Keep \"{0}\", or \"{0}-\" and \"{0}+\"", axis));
+            }
+        } else if (lower == Side::missing || upper == Side::missing) {
+            refuse(name,
+                   fmt::format("side \"{}{}\" has no boundary condition", axis,
+                               lower == Side::missing ? "-" : "+"),
+                   "the flow in the box is not determined",
+                   fmt::format("Add \"{0}\" = \"periodic\", or a condition for \"{0}-\" and for \"{0}+\"",
+                               axis));
+        } else if (lower != upper) {
+            refuse(name,
+                   fmt::format("boundary \"{}{}\" is periodic, its opposite side is not", axis,
+                               lower == Side::periodic ? "-" : "+"),
+                   "what leaves through a periodic side enters through the other",
+                   fmt::format("Write \"{0}\" = \"periodic\", or give both sides a condition", axis));
+        }
+    }
+    for (const auto& [side, patch] : *boundary) {
+        if (patch.is_table() && patch.at_path("velocity").value_or(std::string()) == "shear" &&
+            !values.contains("shear")) {
+            refuse(name, fmt::format("boundary.\"{}\" has velocity = \"shear\"", side.str()),
+                   "there is no shear rate", "Add [shear] with a rate");
+        }
+    }
+}
+
+void check_grid(const toml::table& values, const std::string& name) {
+    if (!values.contains("grid")) {
+        return;
+    }
+    const Section grid = *Section(case_schema(), values).table("grid");
+    std::vector<std::string> kinds = grid.texts("kind");
+    kinds.resize(3, kinds.front());
+    const auto has_kind = [&](const char* kind) {
+        return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+    };
+    for (std::size_t d = 0; d < 3; ++d) {
+        const std::string axis(1, "xyz"[d]);
+        if (kinds[d] == "explicit" && (!grid.table("faces") || !grid.table("faces")->has(axis))) {
+            refuse(name, fmt::format("grid.faces.{} is missing", axis),
+                   "axis " + axis + " has the kind \"explicit\"",
+                   fmt::format("Add faces = {{ {} = [...] }} to [grid]", axis));
+        }
+    }
+    if (std::count(kinds.begin(), kinds.end(), "explicit") < 3) {
+        for (const char* key : {"length", "cells"}) {
+            if (!grid.has(key)) {
+                refuse(name, fmt::format("key \"{}\" is missing in [grid]", key), "the box has no size",
+                       fmt::format("Add {}", key == std::string("cells")
+                                                 ? "cells = [30, 30, 30]"
+                                                 : "length = [\"12 um\", \"12 um\", \"12 um\"]"));
+            }
+        }
+    }
+    if (has_kind("plateau") && !grid.table("plateau")) {
+        refuse(name, "key \"plateau\" is missing in [grid]", "a plateau axis needs its two parameters",
+               "Add plateau = { a = 10, b = 0.2 }");
+    }
+    if (const auto faces = grid.table("faces")) {
+        conversion(faces->text("unit"), "um");
+    }
+}
+
+void check_time(const toml::table& values, const std::string& name) {
+    if (!values.contains("time")) {
+        return;
+    }
+    const Section top(case_schema(), values);
+    const Section time = *top.table("time");
+    if (time.has("strain") == time.has("duration")) {
+        refuse(name,
+               time.has("strain") ? "time.strain and time.duration are both given" : "the run has no length",
+               "exactly one of them says when it ends", "Keep one, e.g. strain = 25 in [time]");
+    }
+    const bool sheared = values.contains("shear");
+    if (time.has("strain") && !sheared) {
+        refuse(name, "time.strain is given without [shear]", "strain is shear rate times time",
+               "Add [shear] with a rate, or give duration = \"1 s\" instead");
+    }
+    const bool step = time.maybe("step").has_value();
+    const bool step_strain = top.table("numerics")->maybe("step_strain").has_value();
+    if (step && step_strain) {
+        refuse(name, "time.step and numerics.step_strain are both given", "a run has one time step",
+               "Keep one of them");
+    }
+    if (step_strain && !sheared) {
+        refuse(name, "numerics.step_strain is given without [shear]", "strain is shear rate times time",
+               "Add [shear] with a rate, or give time.step instead");
+    }
+    const auto fluid = top.table("fluid");
+    if (fluid && fluid->text("initial") == "shear" && !sheared) {
+        refuse(name, "fluid.initial is \"shear\" without [shear]", "there is no shear rate",
+               "Add [shear] with a rate");
+    }
+    const std::vector<double> window = top.table("output")->numbers("window_strain");
+    if (!window.empty() && !(window[0] >= 0 && window[0] < window[1])) {
+        refuse(name, fmt::format("output.window_strain = [{}, {}]", window[0], window[1]),
+               "the window is empty", "Give the lower strain first, e.g. [10, 25]");
+    }
+}
+
+void check_cells(const toml::table& values, const std::string& name) {
+    const std::vector<Section> cells = Section(case_schema(), values).tables("cell");
+    const std::string kind = values["kind"].value_or(std::string());
+    if (kind == "fluid" && !cells.empty()) {
+        refuse(name, "a [[cell]] in a case of kind \"fluid\"", "it would have no effect",
+               "Write kind = \"coupled\", or remove the cell");
+    }
+    if (kind == "membrane" && cells.size() != 1) {
+        refuse(name, fmt::format("{} cells in a case of kind \"membrane\"", cells.size()),
+               "one cell alone is relaxed or stretched", "Keep one [[cell]]");
+    }
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        const auto axis = cells[c].vector("axis");
+        if (!(std::hypot(axis[0], axis[1], axis[2]) > 0)) {
+            refuse(name, fmt::format("cell.{}.axis is zero", c), "it gives no direction",
+                   "Write for example [0, 1, 0]");
+        }
+        if (cells[c].text("reference") == "file" && !cells[c].has("reference_file")) {
+            refuse(name, fmt::format("cell.{} has reference = \"file\"", c), "no reference_file is given",
+                   "Add reference_file = \"rest.vtp\"");
+        }
+    }
+}
+
+void check_references(const toml::table& values, const std::string& name) {
+    for (const Section& reference : Section(case_schema(), values).tables("reference")) {
+        const auto low = reference.maybe("low");
+        const auto high = reference.maybe("high");
+        const std::string what = fmt::format("[[reference]] {}", reference.text("observable"));
+        if (!low && !high && !reference.has("value")) {
+            refuse(name, what, "there is nothing to compare with", "Add low and high, or value");
+        }
+        if (low && high && !(*low <= *high)) {
+            refuse(name, what, fmt::format("low = {} is above high = {}", *low, *high), "Exchange them");
+        }
+    }
+}
+
+}  // namespace
+
+void check_rules(const toml::table& resolved, const std::string& name) {
+    need_tables(resolved, name);
+    check_grid(resolved, name);
+    check_boundary(resolved, name);
+    check_time(resolved, name);
+    check_cells(resolved, name);
+    check_references(resolved, name);
+}
+
+}  // namespace hemoflux::apps

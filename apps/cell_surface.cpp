@@ -1,0 +1,129 @@
+#include "apps/cell_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "meshing/evans_fung.hpp"
+#include "meshing/icosphere.hpp"
+#include "meshing/spheroid.hpp"
+#include "meshing/surface_check.hpp"
+#include "meshing/surface_io.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+meshing::SurfaceMesh checked_file(const std::string& file) {
+    meshing::SurfaceMesh mesh = meshing::read_surface(file);
+    meshing::check_surface(mesh, file);
+    meshing::translate(mesh, -meshing::centroid(mesh));
+    return mesh;
+}
+
+/// Distance from `origin` along `direction` to the triangle a, b, c (Moeller and Trumbore 1997); infinite if
+/// missed.
+double hit_distance(const Vec3d& origin, const Vec3d& direction, const Vec3d& a, const Vec3d& b,
+                    const Vec3d& c) {
+    constexpr double missed = std::numeric_limits<double>::infinity();
+    const Vec3d ab = b - a;
+    const Vec3d ac = c - a;
+    const Vec3d p = cross(direction, ac);
+    const double determinant = dot(ab, p);
+    if (std::abs(determinant) < 1e-14) {
+        return missed;
+    }
+    const Vec3d from_a = origin - a;
+    const double u = dot(from_a, p) / determinant;
+    const Vec3d q = cross(from_a, ab);
+    const double v = dot(direction, q) / determinant;
+    if (u < 0 || v < 0 || u + v > 1) {
+        return missed;
+    }
+    const double distance = dot(ac, q) / determinant;
+    return distance > 0 ? distance : missed;
+}
+
+/// Width of the grid cell that holds coordinate x; of the nearest one outside the axis.
+double local_width(const meshing::Axis& axis, double x) {
+    const auto upper = std::upper_bound(axis.faces.begin() + 1, axis.faces.end() - 1, x);
+    return *upper - *(upper - 1);
+}
+
+}  // namespace
+
+meshing::SurfaceMesh sphere_mesh(const CellInput& cell) {
+    if (cell.shape != CellShape::file && cell.mesh == "icosphere") {
+        return meshing::icosphere(meshing::icosphere_level(cell.nodes), 1.0);
+    }
+    meshing::SurfaceMesh mesh = checked_file(cell.shape == CellShape::file ? cell.file : cell.mesh);
+    mesh.vertices = meshing::directions(mesh);
+    return mesh;
+}
+
+meshing::SurfaceMesh start_shape(const CellInput& cell) {
+    if (cell.shape == CellShape::file) {
+        return checked_file(cell.file);
+    }
+    const meshing::SurfaceMesh sphere = sphere_mesh(cell);
+    const double radius = std::sqrt(cell.area / (4 * M_PI));
+    switch (cell.shape) {
+        case CellShape::sphere:
+            return meshing::spheroid(sphere, radius, radius, radius);
+        case CellShape::spheroid:
+            return meshing::spheroid(sphere, meshing::oblate_axes(cell.area, cell.reduced_volume));
+        default:
+            break;
+    }
+    constexpr double disc_area = 134.1;  // of the Evans-Fung disc with its standard diameter, um^2
+    return meshing::evans_fung(sphere, meshing::evans_fung_diameter * std::sqrt(cell.area / disc_area));
+}
+
+void place(meshing::SurfaceMesh& mesh, const Triple& axis, const Triple& position) {
+    // Rotation that takes z to the unit vector a: v -> v + k x v + k x (k x v) / (1 + a_z), k = z x a
+    // (Rodrigues).
+    const Vec3d k{-axis[1], axis[0], 0};
+    for (Vec3d& v : mesh.vertices) {
+        if (axis[2] > -1 + 1e-12) {
+            const Vec3d kv = cross(k, v);
+            v = v + kv + (1 / (1 + axis[2])) * cross(k, kv);
+        } else {
+            v = {v.x, -v.y, -v.z};  // half a turn about x
+        }
+    }
+    meshing::translate(mesh, {position[0], position[1], position[2]});
+}
+
+ThinnestPart thinnest_part(const meshing::SurfaceMesh& surface, const meshing::RectilinearGrid& grid) {
+    std::vector<Vec3d> normals(surface.vertices.size(), Vec3d{0, 0, 0});
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
+        for (const int vertex : surface.triangles[t]) {
+            normals[static_cast<std::size_t>(vertex)] += meshing::area_vector(surface, t);
+        }
+    }
+    ThinnestPart thinnest;
+    thinnest.grid_cells = std::numeric_limits<double>::infinity();
+    const std::size_t stride = surface.vertices.size() / 600 + 1;
+    for (std::size_t i = 0; i < surface.vertices.size(); i += stride) {
+        const Vec3d& origin = surface.vertices[i];
+        const Vec3d inward = (-1 / norm(normals[i])) * normals[i];
+        double thickness = std::numeric_limits<double>::infinity();
+        for (const meshing::Triangle& triangle : surface.triangles) {
+            if (std::find(triangle.begin(), triangle.end(), static_cast<int>(i)) == triangle.end()) {
+                const auto corner = [&](int n) {
+                    return surface.vertices[static_cast<std::size_t>(triangle[n])];
+                };
+                thickness =
+                    std::min(thickness, hit_distance(origin, inward, corner(0), corner(1), corner(2)));
+            }
+        }
+        const double width = std::abs(inward.x) * local_width(grid.axes[0], origin.x) +
+                             std::abs(inward.y) * local_width(grid.axes[1], origin.y) +
+                             std::abs(inward.z) * local_width(grid.axes[2], origin.z);
+        if (thickness / width < thinnest.grid_cells) {
+            thinnest = {thickness, thickness / width, origin};
+        }
+    }
+    return thinnest;
+}
+
+}  // namespace hemoflux::apps

@@ -1,0 +1,18 @@
+/// The subcommands of the program; each adds itself to the command line and does its work when chosen. Errors
+/// leave as hemoflux::Error.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace hemoflux::apps {
+
+/// `hemoflux run CASE.toml`. The callback stores the exit code of the run in `code`.
+void add_run_command(CLI::App& program, int& code);
+/// `hemoflux mesh grid|rbc`.
+void add_mesh_command(CLI::App& program);
+/// `hemoflux membrane relax|stretch`.
+void add_membrane_command(CLI::App& program, int& code);
+/// `hemoflux schema`.
+void add_schema_command(CLI::App& program);
+
+}  // namespace hemoflux::apps

@@ -1,0 +1,29 @@
+/// Running a case.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/case.hpp"
+
+namespace hemoflux::apps {
+
+/// What the command line says besides the case.
+struct RunOptions {
+    std::filesystem::path output;   ///< folder for everything the run writes
+    int threads = 0;                ///< 0: HEMOFLUX_THREADS or the default of the backend
+    std::filesystem::path restart;  ///< folder of the run to continue; empty: start anew
+    bool quiet = false;             ///< print nothing but errors
+    std::vector<std::string> sets;  ///< overrides as typed, for the log
+};
+
+/// Runs a case of kind coupled or fluid that check_case() has passed and writes its output folder. Returns
+/// the exit code. Throws InputError, NumericalError, FileError.
+int run_case(const Case& c, const RunOptions& options);
+
+/// Relaxes or stretches the cell of a case of kind membrane and writes its output folder. Returns the exit
+/// code.
+int run_membrane(const Case& c, const RunOptions& options);
+
+}  // namespace hemoflux::apps

@@ -1,0 +1,77 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "apps/case_check.hpp"
+#include "apps/commands.hpp"
+#include "apps/run.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+struct Arguments {
+    std::string file;
+    bool check = false;
+    RunOptions options;
+};
+
+/// `--restart DIR` alone continues the case that was resolved into DIR, in DIR.
+void complete(Arguments& arguments) {
+    RunOptions& options = arguments.options;
+    if (arguments.file.empty() && options.restart.empty()) {
+        throw InputError("No case is given", "there is nothing to run",
+                         "Write hemoflux run CASE.toml, or hemoflux run --restart DIR");
+    }
+    if (arguments.file.empty()) {
+        arguments.file = (options.restart / "resolved.toml").string();
+    }
+    if (options.output.empty()) {
+        options.output = options.restart.empty()
+                             ? std::filesystem::path("results") / std::filesystem::path(arguments.file).stem()
+                             : options.restart;
+    }
+}
+
+int run(Arguments& arguments) {
+    complete(arguments);
+    const Case c = read_case(arguments.file, arguments.options.sets);
+    for (const std::string& warning : check_case(c)) {
+        fmt::print(stderr, "warning: {}.\n", warning);
+    }
+    if (arguments.check) {
+        fmt::print("{}\n# The case can be run.\n", c.resolved);
+        return static_cast<int>(Exit::done);
+    }
+#ifdef HEMOFLUX_HAS_RUN
+    return c.kind == CaseKind::membrane ? run_membrane(c, arguments.options) : run_case(c, arguments.options);
+#else
+    return run_membrane(c, arguments.options);
+#endif
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, int& code) {
+    CLI::App* command = program.add_subcommand("run", "Run a case");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("CASE", arguments->file, "Case file (TOML)");
+    command->add_option("--output,-o", arguments->options.output, "Output folder [results/CASE]");
+    command
+        ->add_option("--threads,-t", arguments->options.threads,
+                     "Threads; 0: HEMOFLUX_THREADS, else all cores")
+        ->check(CLI::Range(0, 4096));
+    command->add_option("--set", arguments->options.sets, "Override a key of the case: table.key=value")
+        ->allow_extra_args(false);
+    command->add_option("--restart", arguments->options.restart, "Continue the run in this folder");
+    command->add_flag("--check", arguments->check, "Check the case, print it with all defaults, and stop");
+    command->add_flag("--quiet,-q", arguments->options.quiet, "Print errors only");
+    command->footer(
+        "Examples: hemoflux run apps/cases/tank_treading.toml --threads 2\n"
+        "          hemoflux run case.toml --set shear.rate=\"5 1/s\" --set cell.0.nodes=642 --output "
+        "results/fast\n"
+        "          hemoflux run --restart results/fast");
+    command->callback([arguments, &code] { code = run(*arguments); });
+}
+
+}  // namespace hemoflux::apps

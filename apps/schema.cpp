@@ -1,0 +1,147 @@
+#include "apps/schema.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hemoflux::apps {
+
+Form Form::above(double bound, std::string why) const {
+    Form form = *this;
+    form.low = bound;
+    form.open = true;
+    form.because = std::move(why);
+    return form;
+}
+
+Form Form::within(double from, double to, std::string why) const {
+    Form form = *this;
+    form.low = from;
+    form.high = to;
+    form.because = std::move(why);
+    return form;
+}
+
+Form Form::of(std::size_t n) const {
+    Form form = *this;
+    form.count = n;
+    return form;
+}
+
+bool Form::has_word(std::string_view word) const {
+    return type == Type::choice && std::find(choices.begin(), choices.end(), word) != choices.end();
+}
+
+std::string Form::describe() const {
+    const bool many = count != single;
+    std::string words;
+    switch (type) {
+        case Type::quantity:
+            words = fmt::format("{}, as text with the unit, e.g. \"1 {}\"",
+                                many ? "quantities" : "a quantity", unit);
+            break;
+        case Type::number:
+            words = many ? "numbers" : "a number";
+            break;
+        case Type::integer:
+            words = many ? "whole numbers" : "a whole number";
+            break;
+        case Type::flag:
+            words = "true or false";
+            break;
+        case Type::text:
+            words = many ? "texts" : "a text";
+            break;
+        case Type::path:
+            words = "the path of a file";
+            break;
+        case Type::choice:
+            words = choices.size() == 1 ? fmt::format("\"{}\"", choices[0])
+                                        : fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
+            break;
+        case Type::table: {
+            std::vector<std::string> names;
+            for (const Key& key : members.at(0).keys) {
+                names.push_back(key.name);
+            }
+            words = fmt::format("a table {{ {} }}", fmt::join(names, ", "));
+            break;
+        }
+    }
+    if (!many) {
+        return words;
+    }
+    return count == any ? "a list of " + words : fmt::format("a list of {} {}", count, words);
+}
+
+std::string Form::range() const {
+    const bool below = std::isfinite(low);
+    const bool above_too = std::isfinite(high);
+    if (below && above_too) {
+        return fmt::format("{} .. {}", low, high);
+    }
+    if (below) {
+        return fmt::format("{} {}", open ? ">" : ">=", low);
+    }
+    return above_too ? fmt::format("<= {}", high) : "";
+}
+
+Form quantity_in(std::string unit) { return {.type = Type::quantity, .unit = std::move(unit)}; }
+Form number() { return {.type = Type::number}; }
+Form integer() { return {.type = Type::integer}; }
+Form flag() { return {.type = Type::flag}; }
+Form text() { return {.type = Type::text}; }
+Form path() { return {.type = Type::path}; }
+Form choice(std::initializer_list<const char*> words) {
+    return {.type = Type::choice, .choices = {words.begin(), words.end()}};
+}
+Form automatic() { return choice({"auto"}); }
+Form table(Table members) { return {.type = Type::table, .members = {std::move(members)}}; }
+
+const Key* Table::find(std::string_view key) const {
+    const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
+    return found == keys.end() ? nullptr : &*found;
+}
+
+namespace {
+
+/// Levenshtein distance: insertions, deletions and substitutions that turn a into b.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& known) {
+    std::string best;
+    std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+    for (const std::string& name : known) {
+        const std::size_t distance = edit_distance(word, name);
+        if (distance < least && distance < name.size()) {
+            least = distance;
+            best = name;
+        }
+    }
+    return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+    const std::string near = nearest_name(word, known);
+    return near.empty() ? fmt::format("Known are: {}", fmt::join(known, ", "))
+                        : fmt::format("Perhaps \"{}\" was meant", near);
+}
+
+}  // namespace hemoflux::apps
