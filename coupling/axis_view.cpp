@@ -67,6 +67,7 @@ AxisData::AxisData(const meshing::Axis& axis, bool periodic, const char* name) {
         while (k < n - 1 && centres[static_cast<std::size_t>(k + 1)] <= start) ++k;
         bin.push_back(k);
     }
+    centre.insert(centre.end(), exchange::row_alignment, shape_.upper + shape_.length);
     centre_ = exchange::Buffer<double>(centre);
     width_ = exchange::Buffer<double>(width);
     inverse_width_ = exchange::Buffer<double>(inverse);

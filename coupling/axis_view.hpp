@@ -10,6 +10,7 @@
 
 #include "exchange/buffer.hpp"
 #include "exchange/macros.hpp"
+#include "exchange/pack.hpp"
 #include "meshing/rectilinear.hpp"
 
 namespace hemoflux::coupling {
@@ -26,8 +27,8 @@ struct AxisView {
     bool periodic = false;
     /// First face, last face and their distance, um.
     double lower = 0, upper = 0, length = 0;
-    /// Centre and width of cells -axis_ghosts .. n - 1 + axis_ghosts, um; periodic continuation, or mirrored
-    /// cells beyond a wall.
+    /// Centre and width of cells -axis_ghosts .. n - 1 + axis_ghosts, um: the periodic
+    /// continuation, or mirrored cells beyond a wall. A pack may be read past the last.
     const double *centre = nullptr, *width = nullptr;
     /// 1/width of cells 0 .. n-1, 1/um.
     const double* inverse_width = nullptr;
@@ -57,15 +58,16 @@ struct AxisView {
     }
     /// Greatest k with centre[k] <= X, for X in [lower, upper]: -1 .. n-1.
     HEMOFLUX_INLINE int below(double X) const {
-        int t = static_cast<int>((X - lower) * bins_per_length);
-        t = t < 0 ? 0 : (t < bins ? t : bins - 1);
+        const double at = (X - lower) * bins_per_length;
+        const int t = at > 0 ? (at < bins ? static_cast<int>(at) : bins - 1) : 0;
         int k = bin[t];
         while (k < n - 1 && centre[k + 1] <= X) ++k;
         while (k >= 0 && centre[k] > X) --k;
         return k;
     }
-    /// Greatest unwrapped k with centre <= X for any X; -1 and n-1 bound it between walls.
+    /// Greatest unwrapped k with centre <= X for any X; -1 and n-1 bound it between walls. -1 for NaN.
     HEMOFLUX_INLINE int below_unwrapped(double X) const {
+        if (!(std::fabs(X - lower) < 2e6 * length)) return -1;
         int turns;
         const double Y = wrap(X, &turns);
         return (Y < lower ? -1 : Y > upper ? n - 1 : below(Y)) + turns * n;
@@ -78,18 +80,13 @@ struct AxisView {
     }
     /// Number of lengths between unwrapped cell k and cell(k).
     HEMOFLUX_INLINE int turns(int k) const { return (k - cell(k)) / n; }
-    /// Width at X, linear between the centres, um; X inside the domain.
+    /// Width at X, linear between the centres, um; beyond a wall that at the wall.
     HEMOFLUX_INLINE double width_at(double X) const {
         int t;
-        const double Y = wrap(clamp(X), &t);
+        const double Y = contains(X) ? wrap(X, &t) : (X > upper ? upper : lower);
         const int k = below(Y);
         const double s = (Y - centre[k]) / (centre[k + 1] - centre[k]);
         return width[k] + s * (width[k + 1] - width[k]);
-    }
-
-  private:
-    HEMOFLUX_INLINE double clamp(double X) const {
-        return periodic ? X : (X < lower ? lower : (X > upper ? upper : X));
     }
 };
 

@@ -23,16 +23,20 @@ class CellGrid {
     CellGrid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic)
         : axes_{AxisData(grid.axes[0], periodic[0], "x"), AxisData(grid.axes[1], periodic[1], "y"),
                 AxisData(grid.axes[2], periodic[2], "z")},
-          layout_(grid.axes[0].cells(), grid.axes[1].cells(), grid.axes[2].cells()) {}
+          layout_(grid.axes[0].cells(), grid.axes[1].cells(), grid.axes[2].cells()),
+          smallest_(grid.smallest()) {}
 
     /// Valid as long as this object lives.
     [[nodiscard]] CellGridView view() const {
         return {{axes_[0].view(), axes_[1].view(), axes_[2].view()}, layout_};
     }
+    /// Smallest width on any axis, um.
+    [[nodiscard]] double smallest() const { return smallest_; }
 
   private:
     std::array<AxisData, 3> axes_;
     exchange::Layout layout_;
+    double smallest_;
 };
 
 }  // namespace hemoflux::coupling

@@ -1,0 +1,154 @@
+#include "coupling/viscosity.hpp"
+
+#include <string>
+
+#include "coupling/tile_scan.hpp"
+#include "exchange/error.hpp"
+#include "exchange/memory.hpp"
+#include "exchange/parallel.hpp"
+
+namespace hemoflux::coupling {
+namespace {
+
+/// Adds one membrane cell to the viscosity.
+struct AddCell {
+    double* nu;
+    double jump;
+    HEMOFLUX_INLINE void operator()(std::size_t at, double ratio) const { nu[at] += jump * heaviside(ratio); }
+};
+
+/// Viscosity of one tile: all membrane cells in turn.
+struct ViscosityTile {
+    SurfacesView surfaces;
+    const double* nu_inside;
+    double nu_outside;
+    double* nu;
+    HEMOFLUX_FN void operator()(std::size_t tile) const {
+        const TileRange r = surfaces.tiles.range(tile);
+        for (int k = r.k0; k < r.k1; ++k)
+            for (int j = r.j0; j < r.j1; ++j)
+                for (int i = 0; i < surfaces.grid.axis[0].n; ++i)
+                    nu[surfaces.grid.layout.at(i, j, k)] = nu_outside;
+        TileScan scan(surfaces, tile);
+        for (std::size_t c = 0; c < surfaces.cells; ++c) scan(c, AddCell{nu, nu_inside[c] - nu_outside});
+    }
+};
+
+/// Unit normal of vertex v: the mean of the triangles around it, weighted by area.
+struct VertexNormal {
+    const BandTriangle* triangle;
+    const int *ring_begin, *ring;
+    std::size_t vertices, triangles;
+    double* normal[3];
+    HEMOFLUX_FN void operator()(std::size_t v) const {
+        const std::size_t c = v / vertices;
+        Vec3d sum{0, 0, 0};
+        for (int i = ring_begin[v % vertices]; i < ring_begin[v % vertices + 1]; ++i) {
+            const BandTriangle& t = triangle[c * triangles + static_cast<std::size_t>(ring[i])];
+            sum += cross(t.ab, t.ac);
+        }
+        const Vec3d n = (1 / norm(sum)) * sum;
+        normal[0][v] = n.x;
+        normal[1][v] = n.y;
+        normal[2][v] = n.z;
+    }
+};
+
+/// Motion of vertex v since the last recomputation over what is allowed.
+struct MotionOverLimit {
+    const double *now[3], *then[3], *normal[3], *half_width;
+    MotionLimits limits;
+    HEMOFLUX_FN exchange::Maximum operator()(std::size_t v) const {
+        const Vec3d d{now[0][v] - then[0][v], now[1][v] - then[1][v], now[2][v] - then[2][v]};
+        const double along = std::fabs(d.x * normal[0][v] + d.y * normal[1][v] + d.z * normal[2][v]);
+        const double h = half_width[v];
+        const double a = along / (limits.normal * h), b = norm(d) / (limits.total * h);
+        return {a > b ? a : b};
+    }
+};
+
+struct Rings {
+    std::vector<int> begin, triangle;
+    Rings(const std::vector<std::array<int, 3>>& triangles, std::size_t vertices) : begin(vertices + 1, 0) {
+        for (const auto& t : triangles)
+            for (const int v : t) ++begin[static_cast<std::size_t>(v) + 1];
+        for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
+        triangle.resize(3 * triangles.size());
+        std::vector<int> next(begin.begin(), begin.end() - 1);
+        for (std::size_t t = 0; t < triangles.size(); ++t)
+            for (const int v : triangles[t])
+                triangle[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<int>(t);
+    }
+};
+
+void check(double nu, const char* where) {
+    if (!(nu > 0))
+        throw InputError(std::string("viscosity ") + where + " of " + std::to_string(nu),
+                         "it must be positive", "give a viscosity above zero");
+}
+
+}  // namespace
+
+struct InteriorViscosity::Motion {
+    exchange::Reduction<exchange::Maximum> largest;
+};
+
+InteriorViscosity::InteriorViscosity(const CellGrid& grid, const std::vector<std::array<int, 3>>& triangles,
+                                     std::size_t vertices, const std::vector<double>& nu_inside,
+                                     double nu_outside, HalfWidth half_width, MotionLimits limits)
+    : distance_(grid, triangles, vertices, nu_inside.size(), half_width),
+      nu_outside_(nu_outside),
+      limits_(limits),
+      triangles_(triangles.size()),
+      nu_inside_(nu_inside),
+      motion_(std::make_unique<Motion>()) {
+    check(nu_outside, "outside the cells");
+    for (const double nu : nu_inside) check(nu, "inside a cell");
+    const Rings rings(triangles, vertices);
+    ring_begin_ = exchange::Buffer<int>(rings.begin);
+    ring_ = exchange::Buffer<int>(rings.triangle);
+    for (int q = 0; q < 3; ++q) {
+        position_[q] = exchange::Buffer<double>(vertices * nu_inside.size());
+        normal_[q] = exchange::Buffer<double>(vertices * nu_inside.size());
+    }
+}
+
+InteriorViscosity::~InteriorViscosity() = default;
+
+bool InteriorViscosity::update(const double* x, const double* y, const double* z, double* nu) {
+    if (recomputations_ > 0) {
+        const MotionOverLimit motion{{x, y, z},
+                                     {position_[0].data(), position_[1].data(), position_[2].data()},
+                                     {normal_[0].data(), normal_[1].data(), normal_[2].data()},
+                                     distance_.half_widths(),
+                                     limits_};
+        if (motion_->largest.sum(position_[0].size(), motion).value <= 1) return false;
+    }
+    recompute(x, y, z, nu);
+    return true;
+}
+
+void InteriorViscosity::recompute(const double* x, const double* y, const double* z, double* nu) {
+    distance_.prepare(x, y, z);
+    const SurfacesView surfaces = distance_.view();
+    exchange::for_each_index(surfaces.tiles.count(),
+                             ViscosityTile{surfaces, nu_inside_.data(), nu_outside_, nu});
+    const double* from[3] = {x, y, z};
+    for (int q = 0; q < 3; ++q)
+        exchange::copy_on_device(position_[q].data(), from[q], position_[q].size() * sizeof(double));
+    exchange::for_each_index(position_[0].size(),
+                             VertexNormal{surfaces.triangle,
+                                          ring_begin_.data(),
+                                          ring_.data(),
+                                          distance_.vertices(),
+                                          triangles_,
+                                          {normal_[0].data(), normal_[1].data(), normal_[2].data()}});
+    ++recomputations_;
+}
+
+std::array<std::vector<double>, 3> InteriorViscosity::positions() const {
+    if (recomputations_ == 0) return {};
+    return {position_[0].to_host(), position_[1].to_host(), position_[2].to_host()};
+}
+
+}  // namespace hemoflux::coupling

@@ -1,0 +1,77 @@
+/// Viscosity inside and outside the cells:
+///
+///   nu = nu_ext + sum_c (nu_int,c - nu_ext) H(d_c)                                      (6.45)
+///   H(d) = 1/2 [1 + d/h + sin(pi d/h)/pi] for |d| <= h, 0 outside, 1 inside             (6.46)
+///
+/// d is the signed distance to membrane c and h the local cell (signed_distance.hpp). The field is recomputed
+/// only when a membrane has moved noticeably since it was last computed: a node by more than `normal`
+/// half-widths along its normal, or by more than `total` half-widths in any direction (a membrane that slides
+/// along itself, as in tank treading, encloses the same cells). d is then off by no more than about (normal +
+/// total^2 h kappa / 2) h, kappa the curvature of the membrane.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "coupling/signed_distance.hpp"
+#include "exchange/buffer.hpp"
+
+namespace hemoflux::coupling {
+
+/// H of (6.46) as a function of d/h in [-1, 1].
+HEMOFLUX_INLINE double heaviside(double ratio) {
+    constexpr double pi = 3.14159265358979323846;
+    if (ratio >= 1) return 1;
+    if (ratio <= -1) return 0;
+    return 0.5 * (1 + ratio + std::sin(pi * ratio) / pi);
+}
+
+/// How far a node may move before the field is recomputed, in half-widths of the band. Zero: recompute
+/// always.
+struct MotionLimits {
+    double normal = 0.05;
+    double total = 0.5;
+};
+
+/// Keeps the viscosity of the fluid cells in step with the membranes.
+class InteriorViscosity {
+  public:
+    /// Membranes as in SignedDistance; nu_inside has one value per membrane cell. Viscosities must be
+    /// positive (InputError).
+    InteriorViscosity(const CellGrid& grid, const std::vector<std::array<int, 3>>& triangles,
+                      std::size_t vertices, const std::vector<double>& nu_inside, double nu_outside,
+                      HalfWidth half_width = {}, MotionLimits limits = {});
+    ~InteriorViscosity();
+
+    /// Recomputes the interior cells of the padded field nu (device) if a node of x, y, z (device, um,
+    /// cell-major) has passed a limit since the last time, and says whether it did. The first call always
+    /// does. Ghost cells are left to the fluid solver.
+    bool update(const double* x, const double* y, const double* z, double* nu);
+    /// Recomputes whether needed or not. For a restart: with the positions() of the checkpoint, so that field
+    /// and later decisions are those of the uninterrupted run.
+    void recompute(const double* x, const double* y, const double* z, double* nu);
+    /// Node positions (x, y, z; host, um) of the last recomputation, the state that a checkpoint must hold;
+    /// empty before the first.
+    [[nodiscard]] std::array<std::vector<double>, 3> positions() const;
+    /// Number of recomputations so far.
+    [[nodiscard]] std::size_t recomputations() const { return recomputations_; }
+
+  private:
+    struct Motion;
+
+    SignedDistance distance_;
+    double nu_outside_;
+    MotionLimits limits_;
+    std::size_t triangles_, recomputations_ = 0;
+    /// Triangles around each vertex: vertex v has ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1] - 1].
+    exchange::Buffer<int> ring_begin_, ring_;
+    exchange::Buffer<double> nu_inside_;
+    /// Positions and unit normals at the last recomputation.
+    exchange::Buffer<double> position_[3], normal_[3];
+    std::unique_ptr<Motion> motion_;
+};
+
+}  // namespace hemoflux::coupling
