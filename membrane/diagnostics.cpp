@@ -1,0 +1,208 @@
+#include "membrane/diagnostics.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace hemoflux::membrane {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+const Vec3d& at(const std::vector<Vec3d>& positions, int v) { return positions[static_cast<std::size_t>(v)]; }
+
+Eigen::Vector3d eigen(const Vec3d& a) { return {a.x, a.y, a.z}; }
+
+/// Nodes and weights of the midpoint rule in angle and of Gauss-Legendre in height over one octant.
+struct Octant {
+    static constexpr int points = 32;
+    std::array<double, points> height{}, weight{};
+
+    Octant() {
+        for (int i = 0; i < points; ++i) {
+            double x = std::cos(pi * (i + 0.75) / (points + 0.5)), slope = 1;
+            for (int iteration = 0; iteration < 50; ++iteration) {
+                double p = 1, before = 0;
+                for (int k = 1; k <= points; ++k) {
+                    const double last = before;
+                    before = p;
+                    p = ((2 * k - 1) * x * before - (k - 1) * last) / k;
+                }
+                slope = points * (x * p - before) / (x * x - 1);
+                const double change = p / slope;
+                x -= change;
+                if (std::fabs(change) < 1e-16) break;
+            }
+            height[static_cast<std::size_t>(i)] = 0.5 * (1 + x);
+            weight[static_cast<std::size_t>(i)] = 1 / ((1 - x * x) * slope * slope);
+        }
+    }
+};
+
+/// A triangle seen along the disc's axis: corners in the plane, and their heights.
+struct Projected {
+    std::array<double, 3> u, v, h;
+};
+
+/// Height at which the line along the axis through (u, v) meets the triangle; false when it misses it.
+bool meet(const Projected& t, double u, double v, double& height) {
+    const double d1u = t.u[1] - t.u[0], d1v = t.v[1] - t.v[0], d2u = t.u[2] - t.u[0], d2v = t.v[2] - t.v[0];
+    const double area = d1u * d2v - d1v * d2u;
+    if (area == 0) return false;
+    const double b = ((u - t.u[0]) * d2v - (v - t.v[0]) * d2u) / area;
+    const double c = (d1u * (v - t.v[0]) - d1v * (u - t.u[0])) / area;
+    constexpr double slack = 1e-12;  // a line through a vertex meets its triangles
+    if (!(b >= -slack && c >= -slack && b + c <= 1 + slack)) return false;
+    height = t.h[0] + b * (t.h[1] - t.h[0]) + c * (t.h[2] - t.h[0]);
+    return true;
+}
+
+double thickness(const std::vector<Projected>& triangles, double u, double v) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, height = 0;
+    for (const Projected& t : triangles)
+        if (meet(t, u, v, height)) {
+            low = std::min(low, height);
+            high = std::max(high, height);
+        }
+    return std::max(0.0, high - low);
+}
+
+}  // namespace
+
+ShapeMoments shape_moments(const Triangles& triangles, const std::vector<Vec3d>& positions) {
+    ShapeMoments s;
+    const Vec3d origin = positions.front();
+    Vec3d volume_moment{0, 0, 0}, area_moment{0, 0, 0};
+    for (const auto& t : triangles) {
+        const Vec3d a = at(positions, t[0]) - origin, b = at(positions, t[1]) - origin,
+                    c = at(positions, t[2]) - origin, sum = a + b + c;
+        const double volume = dot(a, cross(b, c)) / 6, area = 0.5 * norm(cross(b - a, c - a));
+        s.volume += volume;
+        s.area += area;
+        volume_moment += (volume / 4) * sum;
+        area_moment += (area / 3) * sum;
+    }
+    s.centroid = origin + (1 / s.volume) * volume_moment;
+    s.reduced_volume = 6 * std::sqrt(pi) * s.volume / std::pow(s.area, 1.5);
+    const Vec3d middle = origin + (1 / s.area) * area_moment;
+    Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+    for (const auto& t : triangles) {
+        const Vec3d a = at(positions, t[0]) - middle, b = at(positions, t[1]) - middle,
+                    c = at(positions, t[2]) - middle;
+        const double weight = norm(cross(b - a, c - a)) / 24;
+        for (const Vec3d& p : {a, b, c, a + b + c}) g += weight * eigen(p) * eigen(p).transpose();
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(g / s.area);
+    for (int i = 0; i < 3; ++i) {
+        const auto to = static_cast<std::size_t>(i);
+        s.moments[to] = solver.eigenvalues()[2 - i];
+        const Eigen::Vector3d axis = solver.eigenvectors().col(2 - i);
+        s.axes[to] = {axis.x(), axis.y(), axis.z()};
+    }
+    return s;
+}
+
+std::array<double, 3> ellipsoid_moments(const std::array<double, 3>& half_axes) {
+    static const Octant octant;
+    const double a = half_axes[0], b = half_axes[1], c = half_axes[2];
+    double total = 0, x2 = 0, y2 = 0, z2 = 0;
+    for (std::size_t i = 0; i < Octant::points; ++i)
+        for (int k = 0; k < Octant::points; ++k) {
+            const double nz = octant.height[i], rho2 = 1 - nz * nz;
+            const double angle = 0.5 * pi * (k + 0.5) / Octant::points;
+            const double nx2 = rho2 * std::pow(std::cos(angle), 2), ny2 = rho2 - nx2;
+            const double w = octant.weight[i] *
+                             std::sqrt(b * b * c * c * nx2 + a * a * c * c * ny2 + a * a * b * b * nz * nz);
+            total += w;
+            x2 += w * nx2;
+            y2 += w * ny2;
+            z2 += w * nz * nz;
+        }
+    return {a * a * x2 / total, b * b * y2 / total, c * c * z2 / total};
+}
+
+std::array<double, 3> ellipsoid_half_axes(const std::array<double, 3>& moments) {
+    std::array<double, 3> axes{};
+    for (std::size_t i = 0; i < 3; ++i) axes[i] = std::sqrt(3 * moments[i]);
+    // G_i / a_i^2 varies slowly with the axes, so that this iteration contracts.
+    for (int iteration = 0; iteration < 200; ++iteration) {
+        const auto now = ellipsoid_moments(axes);
+        double change = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double factor = std::sqrt(moments[i] / now[i]);
+            axes[i] *= factor;
+            change = std::max(change, std::fabs(factor - 1));
+        }
+        if (!(change > 1e-14)) break;
+    }
+    return axes;
+}
+
+double taylor_deformation(const ShapeMoments& moments) {
+    const auto axes = ellipsoid_half_axes(moments.moments);
+    return (axes[0] - axes[2]) / (axes[0] + axes[2]);
+}
+
+double inclination(const ShapeMoments& moments) {
+    Vec3d axis = moments.axes[0];
+    if (std::hypot(axis.x, axis.y) < 0.5) axis = moments.axes[1];
+    double degrees = std::atan2(axis.y, axis.x) * 180 / pi;
+    if (degrees > 90) degrees -= 180;
+    if (degrees <= -90) degrees += 180;
+    return degrees;
+}
+
+double tank_treading_angle(const Vec3d& point, const Vec3d& centroid) {
+    return std::atan2(point.y - centroid.y, point.x - centroid.x);
+}
+
+Diameters stretch_diameters(const std::vector<Vec3d>& positions, const Vec3d& centroid) {
+    Diameters d;
+    for (const Vec3d& p : positions) {
+        const Vec3d r = p - centroid;
+        d.axial = std::max(d.axial, 2 * norm(r));
+        d.transverse = std::max(d.transverse, 2 * std::hypot(r.y, r.z));
+    }
+    return d;
+}
+
+DiscMeasures disc_measures(const Triangles& triangles, const std::vector<Vec3d>& positions) {
+    const ShapeMoments s = shape_moments(triangles, positions);
+    std::vector<double> u, v, h;
+    for (const Vec3d& p : positions) {
+        const Vec3d r = p - s.centroid;
+        u.push_back(dot(r, s.axes[0]));
+        v.push_back(dot(r, s.axes[1]));
+        h.push_back(dot(r, s.axes[2]));
+    }
+    DiscMeasures d;
+    constexpr int directions = 180;
+    for (int k = 0; k < directions; ++k) {
+        const double x = std::cos(pi * k / directions), y = std::sin(pi * k / directions);
+        double low = 0, high = 0;
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            low = std::min(low, x * u[i] + y * v[i]);
+            high = std::max(high, x * u[i] + y * v[i]);
+        }
+        d.diameter = std::max(d.diameter, high - low);
+    }
+    std::vector<Projected> projected;
+    for (const auto& t : triangles) {
+        Projected p{};
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto i = static_cast<std::size_t>(t[c]);
+            p.u[c] = u[i];
+            p.v[c] = v[i];
+            p.h[c] = h[i];
+        }
+        projected.push_back(p);
+    }
+    d.centre_thickness = thickness(projected, 0, 0);
+    for (std::size_t i = 0; i < u.size(); ++i)
+        d.greatest_thickness = std::max(d.greatest_thickness, thickness(projected, u[i], v[i]));
+    return d;
+}
+
+}  // namespace hemoflux::membrane

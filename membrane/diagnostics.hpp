@@ -1,0 +1,70 @@
+/// What a membrane's shape is: volume, moments, orientation, diameters, thickness.
+///
+/// Surface gyration tensor (area weighted, about the surface's centroid m), exact for flat triangles:
+///   G = 1/A int (r - m)(r - m)^T dA,   per triangle  A_k/12 [sum_i p_i p_i^T + (sum_i p_i)(sum_i p_i)^T]
+/// with p_i = R_i - m. Its eigenvectors are the principal axes.
+///
+/// Equivalent ellipsoid: half-axes a, b, c whose own surface has these principal moments,
+///   G_i = a_i^2 int n_i^2 w dOmega / int w dOmega,  w = (b^2 c^2 n_x^2 + a^2 c^2 n_y^2 + a^2 b^2
+///   n_z^2)^{1/2}
+/// over the unit sphere. Taylor's deformation is D = (longest - shortest)/(longest + shortest).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "exchange/vec3.hpp"
+#include "meshing/surface_mesh.hpp"
+
+namespace hemoflux::membrane {
+
+using Triangles = std::vector<meshing::Triangle>;
+
+/// Integral quantities of one closed surface.
+struct ShapeMoments {
+    double volume = 0;          ///< um^3
+    double area = 0;            ///< um^2
+    double reduced_volume = 0;  ///< 1 for a sphere
+    Vec3d centroid{};           ///< of the enclosed volume, um
+    /// Principal moments of the surface gyration tensor, um^2, greatest first, and their unit axes.
+    std::array<double, 3> moments{};
+    std::array<Vec3d, 3> axes{};
+};
+
+/// Moments of a closed surface of outward triangles; positions in um.
+ShapeMoments shape_moments(const Triangles& triangles, const std::vector<Vec3d>& positions);
+
+/// Half-axes (um), greatest first, of the ellipsoid whose surface has these principal moments (um^2, greatest
+/// first, all positive).
+std::array<double, 3> ellipsoid_half_axes(const std::array<double, 3>& moments);
+
+/// Principal moments (um^2) of the surface of the ellipsoid with these half-axes (um).
+std::array<double, 3> ellipsoid_moments(const std::array<double, 3>& half_axes);
+
+/// Taylor's deformation of the equivalent ellipsoid, 0 for a sphere.
+double taylor_deformation(const ShapeMoments& moments);
+
+/// Angle in degrees, in (-90, 90], from +x to the longest principal axis projected on the xy plane. Where
+/// that axis is within 30 degrees of z, as one of the two equal axes of a disc may be, the next one counts.
+double inclination(const ShapeMoments& moments);
+
+/// Angle in radians, in (-pi, pi], of a material point about the volume centroid in the xy plane. The caller
+/// unwraps it in time; it falls as the membrane rolls with u = G y.
+double tank_treading_angle(const Vec3d& point, const Vec3d& centroid);
+
+/// Diameters along and across x of a cell centred at `centroid`: 2 max |r| and 2 max (y^2 + z^2)^{1/2}
+/// (section 7.2.2), um.
+struct Diameters {
+    double axial = 0, transverse = 0;
+};
+Diameters stretch_diameters(const std::vector<Vec3d>& positions, const Vec3d& centroid);
+
+/// Measures of a disc about its axis, the shortest principal axis, um.
+struct DiscMeasures {
+    double diameter = 0;            ///< largest extent in any direction of the disc's plane
+    double centre_thickness = 0;    ///< along the axis through the volume centroid
+    double greatest_thickness = 0;  ///< along the axis through any vertex
+};
+DiscMeasures disc_measures(const Triangles& triangles, const std::vector<Vec3d>& positions);
+
+}  // namespace hemoflux::membrane

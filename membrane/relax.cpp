@@ -1,0 +1,197 @@
+#include "membrane/relax.hpp"
+
+#include <LBFGS.h>
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "exchange/error.hpp"
+#include "exchange/memory.hpp"
+
+namespace hemoflux::membrane {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+/// The energy as a function of all coordinates: x of every vertex, then y, then z.
+class Objective {
+  public:
+    Objective(Batch& batch, const std::vector<Vec3d>& load, double tolerated_force, double first_move)
+        : tolerance(tolerated_force),
+          largest_move(first_move),
+          batch_(batch),
+          n_(batch.vertices()),
+          load_(dimension()) {
+        load_.setZero();
+        for (std::size_t v = 0; v < load.size(); ++v) {
+            const auto i = static_cast<Eigen::Index>(v), n = static_cast<Eigen::Index>(n_);
+            load_[i] = load[v].x;
+            load_[n + i] = load[v].y;
+            load_[2 * n + i] = load[v].z;
+        }
+    }
+
+    /// Energy with the loads' potential at r, and its gradient; huge, the gradient unchanged, where a spring
+    /// is beyond its contour length, so that a line search turns back.
+    double operator()(const Vector& r, Vector& gradient) {
+        ++evaluations;
+        write(r);
+        if (!batch_.try_compute_forces()) return 1e100;
+        read(batch_.fx(), 0, gradient);
+        read(batch_.fy(), 1, gradient);
+        read(batch_.fz(), 2, gradient);
+        gradient = -gradient - load_;
+        const auto n = static_cast<Eigen::Index>(n_);
+        const auto f = gradient.reshaped(n, 3);
+        const double force = f.rowwise().norm().maxCoeff();
+        const double energy = batch_.energies(0).total() - load_.dot(r);
+        if (energy < best_energy) {
+            best_energy = energy;
+            best = r;
+        }
+        largest_force = force;
+        return energy;
+    }
+
+    [[nodiscard]] bool converged() const { return largest_force <= tolerance; }
+
+    [[nodiscard]] Vector start() const {
+        Vector r(dimension());
+        read(batch_.x(), 0, r);
+        read(batch_.y(), 1, r);
+        read(batch_.z(), 2, r);
+        return r;
+    }
+
+    void write(const Vector& r) {
+        exchange::copy_to_device(batch_.x().data(), r.data(), n_ * sizeof(double));
+        exchange::copy_to_device(batch_.y().data(), r.data() + n_, n_ * sizeof(double));
+        exchange::copy_to_device(batch_.z().data(), r.data() + 2 * n_, n_ * sizeof(double));
+    }
+
+    [[nodiscard]] Eigen::Index dimension() const { return static_cast<Eigen::Index>(3 * n_); }
+
+    const double tolerance, largest_move;
+    int evaluations = 0;
+    double largest_force = 0, best_energy = 1e99;
+    Vector best;
+
+  private:
+    void read(const exchange::Buffer<double>& field, std::size_t axis, Vector& r) const {
+        exchange::copy_to_host(r.data() + axis * n_, field.data(), n_ * sizeof(double));
+    }
+
+    Batch& batch_;
+    std::size_t n_;
+    Vector load_;
+};
+
+/// The library's backtracking, with the first trial shortened to `largest_move`. LBFGSSolver stops on the
+/// 2-norm of the gradient; a gradient of zero tells it that the largest force has met the tolerance.
+template <class Scalar>
+struct ShortSteps {
+    template <class Function>
+    static void LineSearch(Function& f, Scalar& fx, Vector& x, Vector& gradient, Scalar& step,
+                           const Vector& direction, const Vector& start,
+                           const LBFGSpp::LBFGSParam<Scalar>& parameters) {
+        step = std::min(step, f.largest_move / direction.cwiseAbs().maxCoeff());
+        LBFGSpp::LineSearchBacktracking<Scalar>::LineSearch(f, fx, x, gradient, step, direction, start,
+                                                            parameters);
+        if (f.converged()) gradient.setZero();
+    }
+};
+
+/// Restarts that forget the history after a line search without success; rounding may need one.
+constexpr int restarts = 4;
+
+void check_load(const Batch& batch, const std::vector<Vec3d>& load) {
+    if (batch.cells() != 1)
+        throw InputError(fmt::format("a batch of {} cells", batch.cells()), "one cell is relaxed at a time",
+                         "Make a batch of one cell");
+    if (!load.empty() && load.size() != batch.vertices())
+        throw InputError(fmt::format("{} loads", load.size()),
+                         fmt::format("the cell has {} vertices", batch.vertices()),
+                         "Give one load per vertex, or none");
+}
+
+}  // namespace
+
+void RelaxOptions::check() const {
+    const auto positive = [](const char* name, double value) {
+        if (!(value > 0))
+            throw InputError(fmt::format("relaxation: {} = {}", name, value), "it must be positive",
+                             "Correct it");
+    };
+    positive("tolerance", tolerance);
+    positive("max_iterations", max_iterations);
+    positive("history", history);
+    positive("largest_move", largest_move);
+}
+
+RelaxResult relax(Batch& batch, const RelaxOptions& options, const std::vector<Vec3d>& load) {
+    options.check();
+    check_load(batch, load);
+    batch.compute_forces();  // names the spring when the start is beyond a contour length
+    const std::vector<double>& lengths = batch.reference().edge_lengths;
+    const double mean =
+        std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
+    Objective objective(batch, load, options.tolerance, options.largest_move * mean);
+
+    LBFGSpp::LBFGSParam<double> parameters;
+    parameters.m = options.history;
+    parameters.epsilon = 0;
+    parameters.epsilon_rel = 0;
+    parameters.linesearch = LBFGSpp::LBFGS_LINESEARCH_BACKTRACKING_WOLFE;
+    parameters.max_linesearch = 40;
+
+    Vector r = objective.start(), gradient(objective.dimension());
+    double energy = objective(r, gradient);
+    RelaxResult result;
+    for (int attempt = 0; attempt <= restarts && !objective.converged(); ++attempt) {
+        parameters.max_iterations = options.max_iterations - result.iterations;
+        if (parameters.max_iterations <= 0) break;
+        LBFGSpp::LBFGSSolver<double, ShortSteps> solver(parameters);
+        try {
+            result.iterations += solver.minimize(objective, r, energy);
+        } catch (const std::runtime_error&) {
+            r = objective.best;
+            energy = objective(r, gradient);
+        }
+    }
+    result.evaluations = objective.evaluations;
+    result.largest_force = objective.largest_force;
+    result.energy = batch.energies(0).total();
+    if (!objective.converged())
+        throw NumericalError(
+            fmt::format("relaxation stopped at a force of {:.3g} after {} iterations", result.largest_force,
+                        result.iterations),
+            fmt::format("the tolerance is {:.3g}", options.tolerance),
+            "Start nearer to the minimum, take smaller load or volume steps, or allow more iterations");
+    return result;
+}
+
+RelaxResult deflate(Batch& batch, double volume, const RelaxOptions& options, int steps) {
+    if (steps < 1) throw InputError(fmt::format("deflation in {} steps", steps), "it needs one", "Use 12");
+    batch.compute_forces();
+    const double start = batch.sums(0).volume;
+    Reference reference = batch.reference();
+    RelaxOptions coarse = options;
+    coarse.tolerance *= 100;
+    RelaxResult sum;
+    for (int k = 1; k <= steps; ++k) {
+        reference.volume = k == steps ? volume : start + (volume - start) * k / steps;
+        batch.set_reference(reference);
+        const RelaxResult step = relax(batch, k == steps ? options : coarse);
+        sum = {.iterations = sum.iterations + step.iterations,
+               .evaluations = sum.evaluations + step.evaluations,
+               .largest_force = step.largest_force,
+               .energy = step.energy};
+    }
+    return sum;
+}
+
+}  // namespace hemoflux::membrane

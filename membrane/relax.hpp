@@ -1,0 +1,47 @@
+/// Static relaxation: the nearest minimum of the energy, by L-BFGS on the forces of a batch.
+#pragma once
+
+#include <vector>
+
+#include "exchange/vec3.hpp"
+#include "membrane/batch.hpp"
+
+namespace hemoflux::membrane {
+
+/// When to stop, and how far a node may go at once.
+struct RelaxOptions {
+    double tolerance = 2e-5;     ///< largest force on any vertex at the minimum, 1e-11 N
+    int max_iterations = 20000;  ///< L-BFGS iterations before giving up
+    int history = 20;            ///< corrections that approximate the inverse Hessian
+    double largest_move =
+        0.25;  ///< first trial of a line search moves no vertex further, in mean rest lengths
+
+    /// Throws InputError unless all are positive.
+    void check() const;
+};
+
+/// What a relaxation did.
+struct RelaxResult {
+    int iterations = 0;        ///< of L-BFGS
+    int evaluations = 0;       ///< of the forces
+    double largest_force = 0;  ///< on any vertex, loads included, 1e-11 N
+    double energy = 0;         ///< of the membrane, without the loads' potential, 1e-17 J
+};
+
+/// Moves the vertices of a batch of one cell to the nearest minimum of E - sum load.r, where `load` is a
+/// constant force on each vertex (1e-11 N; empty: none) that should sum to zero. Steps in which a spring
+/// would reach its contour length are rejected. Throws InputError when the batch holds several cells or load
+/// has the wrong size, and NumericalError when it starts beyond the contour length or does not converge.
+RelaxResult relax(Batch& batch, const RelaxOptions& options = {}, const std::vector<Vec3d>& load = {});
+
+/// Steps in which the reference volume goes from a sphere's or spheroid's to a discocyte's. Never one: the
+/// cell would buckle into a cup.
+inline constexpr int deflation_steps = 12;
+
+/// Relaxes the batch's one cell at a reference volume that goes from the cell's present volume to `volume`
+/// (um^3) in equal steps; all but the last converge to 100 times the tolerance. The batch's reference keeps
+/// the last one. Iterations and evaluations are summed. Errors as relax().
+RelaxResult deflate(Batch& batch, double volume, const RelaxOptions& options = {},
+                    int steps = deflation_steps);
+
+}  // namespace hemoflux::membrane

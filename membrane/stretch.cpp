@@ -1,0 +1,72 @@
+#include "membrane/stretch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "exchange/error.hpp"
+#include "membrane/diagnostics.hpp"
+
+namespace hemoflux::membrane {
+namespace {
+
+/// 1 pN in the internal unit of force.
+constexpr double piconewton = 0.1;
+
+std::vector<Vec3d> loads(const PulledVertices& pulled, std::size_t vertices, double force) {
+    std::vector<Vec3d> load(vertices, Vec3d{0, 0, 0});
+    for (int v : pulled.left)
+        load[static_cast<std::size_t>(v)].x -= force / static_cast<double>(pulled.left.size());
+    for (int v : pulled.right)
+        load[static_cast<std::size_t>(v)].x += force / static_cast<double>(pulled.right.size());
+    return load;
+}
+
+}  // namespace
+
+PulledVertices pulled_vertices(const std::vector<Vec3d>& rest) {
+    if (rest.size() < 2)
+        throw InputError(fmt::format("a cell of {} vertices", rest.size()),
+                         "each end needs one to be pulled by", "Use a finer mesh");
+    const auto count =
+        std::max<std::ptrdiff_t>(1, std::lround(pulled_fraction * static_cast<double>(rest.size())));
+    std::vector<int> order(rest.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto x = [&rest](int v) { return rest[static_cast<std::size_t>(v)].x; };
+    PulledVertices pulled;
+    std::stable_sort(order.begin(), order.end(), [&x](int a, int b) { return x(a) < x(b); });
+    pulled.left.assign(order.begin(), order.begin() + count);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&x](int a, int b) { return x(a) > x(b); });
+    pulled.right.assign(order.begin(), order.begin() + count);
+    return pulled;
+}
+
+std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& forces_pN,
+                                  const RelaxOptions& options) {
+    for (double f : forces_pN)
+        if (!(f >= 0) || std::isinf(f))
+            throw InputError(fmt::format("a stretching force of {} pN", f),
+                             "it must be finite and not negative", "Correct the list of forces");
+    relax(batch, options);
+    const double area = batch.sums(0).area, volume = batch.sums(0).volume;
+    const PulledVertices pulled = pulled_vertices(batch.positions(0));
+    std::vector<StretchPoint> points;
+    for (double force : forces_pN) {
+        const RelaxResult result = relax(batch, options, loads(pulled, batch.vertices(), force * piconewton));
+        const auto positions = batch.positions(0);
+        const ShapeMoments moments = shape_moments(batch.topology().triangles(), positions);
+        const Diameters d = stretch_diameters(positions, moments.centroid);
+        points.push_back({.force_pN = force,
+                          .axial_um = d.axial,
+                          .transverse_um = d.transverse,
+                          .iterations = result.iterations,
+                          .area_error = batch.sums(0).area / area - 1,
+                          .volume_error = batch.sums(0).volume / volume - 1});
+    }
+    return points;
+}
+
+}  // namespace hemoflux::membrane

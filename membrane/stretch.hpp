@@ -1,0 +1,41 @@
+/// Optical tweezers, statically: a cell is pulled at both ends along x and relaxed at every force
+/// (section 7.2.2 of the thesis; Mills et al. 2004).
+///
+///   D_A = 2 max |r|,  D_T = 2 max (y^2 + z^2)^{1/2},  the cell centred at its volume centroid.
+#pragma once
+
+#include <vector>
+
+#include "membrane/batch.hpp"
+#include "membrane/relax.hpp"
+
+namespace hemoflux::membrane {
+
+/// Vertices that the beads hold: `left` is pulled towards -x, `right` towards +x.
+struct PulledVertices {
+    std::vector<int> left, right;
+};
+
+/// Fraction of the vertices that each bead holds.
+inline constexpr double pulled_fraction = 0.02;
+
+/// The round(0.02 N) vertices, at least one, of smallest and of largest x of the rest shape; the lower index
+/// wins a tie. InputError when there are fewer than two vertices.
+PulledVertices pulled_vertices(const std::vector<Vec3d>& rest);
+
+/// The cell at one force.
+struct StretchPoint {
+    double force_pN = 0;
+    double axial_um = 0, transverse_um = 0;
+    int iterations = 0;
+    double area_error = 0, volume_error = 0;  ///< relative to the relaxed cell without force
+};
+
+/// Relaxes the batch's one cell, chooses the pulled vertices once from that rest shape, and applies the
+/// forces (pN) in the given order, each from the shape before; a force is divided by the vertices that bear
+/// it. The batch is left in its last shape. Errors as relax(); InputError when a force is negative or not
+/// finite.
+std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& forces_pN,
+                                  const RelaxOptions& options = {});
+
+}  // namespace hemoflux::membrane
