@@ -1,0 +1,2 @@
+#pragma once
+#include <thrust/for_each.h>

@@ -1,0 +1,2 @@
+#pragma once
+#include "fluid/state.hpp"
