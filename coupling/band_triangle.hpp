@@ -37,8 +37,8 @@ struct BandTriangle {
     double ab2, ac2, bc2, abac, inverse_ab2, inverse_ac2, inverse_bc2;
     /// Half-width of the band and 1/half_width^2.
     double half_width, inverse_half2;
-    /// Corners rounded to the lattice of the inside test, in its units.
-    double y[3], z[3];
+    /// Corners rounded to the lattice of the inside test, their bounds, and the half-width, in its units.
+    double y[3], z[3], y_low, y_high, z_low, z_high, reach;
     /// x of the corners, um.
     double x[3];
 };
@@ -61,6 +61,11 @@ HEMOFLUX_INLINE BandTriangle band_triangle(const Vec3d& a, const Vec3d& b, const
         t.y[v] = std::floor(corner[v].y * lattice + 0.5);
         t.z[v] = std::floor(corner[v].z * lattice + 0.5);
     }
+    using exchange::maximum;
+    using exchange::minimum;
+    t.y_low = minimum(t.y[0], minimum(t.y[1], t.y[2])), t.y_high = maximum(t.y[0], maximum(t.y[1], t.y[2]));
+    t.z_low = minimum(t.z[0], minimum(t.z[1], t.z[2])), t.z_high = maximum(t.z[0], maximum(t.z[1], t.z[2]));
+    t.reach = half_width * lattice + 1;
     return t;
 }
 
@@ -121,6 +126,15 @@ HEMOFLUX_INLINE Value squared_distance(const BandTriangle& t, const RowTerms& ro
     const Value v = d1 * t.ac2 - d2 * t.abac, w = d2 * t.ab2 - d1 * t.abac;
     const Value u = (t.ab2 * t.ac2 - t.abac * t.abac) - v - w;
     return select(minimum(u, minimum(v, w)) >= zero, Value(plane * plane), edges);
+}
+
+/// Squared distance in the yz plane, lattice units, of a row to the rectangle around the triangle; zero
+/// within it.
+HEMOFLUX_INLINE double rectangle_distance2(const BandTriangle& t, double y, double z) {
+    using exchange::maximum;
+    const double dy = maximum(0.0, maximum(t.y_low - y, y - t.y_high));
+    const double dz = maximum(0.0, maximum(t.z_low - z, z - t.z_high));
+    return dy * dy + dz * dz;
 }
 
 /// Sign of the edge function of p seen from p0 -> p1 in the yz plane, with ties broken by moving p by an

@@ -102,16 +102,24 @@ struct GatherForces {
                 }
     }
 
+    /// Adds weight * f to four neighbouring cells: one register, so all are read before any is written.
+    HEMOFLUX_INLINE static void add_row(double* cells, double weight, const double* f) {
+        double sum[stencil_width];
+        for (int a = 0; a < stencil_width; ++a) sum[a] = cells[a] + weight * f[a];
+        for (int a = 0; a < stencil_width; ++a) cells[a] = sum[a];
+    }
+
     /// Adds those rows of marker m that lie in the tile.
     HEMOFLUX_INLINE void add(std::size_t m, const TileRange& r) const {
         const Stencil& s = sorted.stencils[m];
         double wy[stencil_width];
-        int row[stencil_width], rows = 0;
+        std::size_t row[stencil_width];
+        int rows = 0;
         for (int b = 0; b < stencil_width; ++b) {
             const int j = grid.axis[1].cell(s.first[1] + b);
             if (j < r.j0 || j >= r.j1) continue;
             wy[rows] = s.weight[1][b] * grid.axis[1].inverse_width[j];
-            row[rows++] = j;
+            row[rows++] = static_cast<std::size_t>(j) * grid.layout.row;
         }
         if (rows == 0) return;
         double fx[stencil_width], fy[stencil_width], fz[stencil_width];
@@ -127,9 +135,10 @@ struct GatherForces {
             const int k = grid.axis[2].cell(s.first[2] + c);
             if (k < r.k0 || k >= r.k1) continue;
             const double wz = s.weight[2][c] * grid.axis[2].inverse_width[k];
+            const std::size_t plane = grid.layout.origin + static_cast<std::size_t>(k) * grid.layout.plane;
             for (int b = 0; b < rows; ++b) {
                 const double weight = wz * wy[b];
-                const std::size_t at = grid.layout.at(0, row[b], k);
+                const std::size_t at = plane + row[b];
                 if (s.wraps_x) {
                     for (int a = 0; a < stencil_width; ++a) {
                         const std::size_t cell = at + static_cast<std::size_t>(x[a]);
@@ -138,12 +147,9 @@ struct GatherForces {
                         density[2][cell] += weight * fz[a];
                     }
                 } else {
-                    double* dx = density[0] + at + x[0];
-                    double* dy = density[1] + at + x[0];
-                    double* dz = density[2] + at + x[0];
-                    for (int a = 0; a < stencil_width; ++a) dx[a] += weight * fx[a];
-                    for (int a = 0; a < stencil_width; ++a) dy[a] += weight * fy[a];
-                    for (int a = 0; a < stencil_width; ++a) dz[a] += weight * fz[a];
+                    add_row(density[0] + at + x[0], weight, fx);
+                    add_row(density[1] + at + x[0], weight, fy);
+                    add_row(density[2] + at + x[0], weight, fz);
                 }
             }
         }

@@ -80,9 +80,13 @@ class TileScan {
 
     /// One triangle, one row.
     HEMOFLUX_INLINE void row(const BandTriangle& t, const CellBox& b, int j, int k, double y, double z) {
+        const double lattice_y = std::floor(y * s_.lattice + 0.5),
+                     lattice_z = std::floor(z * s_.lattice + 0.5);
+        const double off2 = rectangle_distance2(t, lattice_y, lattice_z);
+        if (off2 > t.reach * t.reach) return;
         const std::size_t at = s_.grid.layout.at(0, j, k);
         if (!(touched_ >> bit(j, k) & 1)) start_row(at, bit(j, k));
-        cross(t, at, y, z);
+        if (off2 == 0) cross(t, at, lattice_y, lattice_z);
         const RowTerms terms(t, y, z);
         const AxisView& ax = s_.grid.axis[0];
         const Images xs(ax, 0, ax.n, b.first[0], b.last[0]);
@@ -108,12 +112,11 @@ class TileScan {
         }
     }
 
-    /// Notes where the row crosses the triangle. A crossing q lengths beyond cell r counts for the cells from
-    /// r on and, the total over a row being zero, -(q + 1) times for all.
+    /// Notes where the row at (y, z), in lattice units, crosses the triangle. A crossing q lengths beyond
+    /// cell r counts for the cells from r on and, the total over a row being zero, -(q + 1) times for all.
     HEMOFLUX_INLINE void cross(const BandTriangle& t, std::size_t at, double y, double z) const {
         double x;
-        const int sign =
-            row_crossing(t, std::floor(y * s_.lattice + 0.5), std::floor(z * s_.lattice + 0.5), &x);
+        const int sign = row_crossing(t, y, z, &x);
         if (sign == 0) return;
         const AxisView& ax = s_.grid.axis[0];
         const int first = 1 + ax.below_unwrapped(x);

@@ -10,7 +10,7 @@
 namespace hemoflux::coupling {
 
 /// Rows of a tile in y and in z; a GPU thread takes a single row.
-inline constexpr int tile_rows = exchange::on_gpu ? 1 : 6;
+inline constexpr int tile_rows = exchange::on_gpu ? 1 : 8;
 
 /// Rows j0 <= j < j1, k0 <= k < k1 of one tile.
 struct TileRange {
