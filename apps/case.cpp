@@ -170,7 +170,7 @@ Case read_values(const toml::table& values) {
     }
     if (const auto membrane = in.table("membrane")) {
         c.membrane = {chosen<MembraneTask>(membrane->text("task"), {"relax", "stretch"}),
-                      membrane->numbers("forces"), membrane->number("end_fraction"),
+                      membrane->numbers("forces"), membrane->text("experiment"),
                       membrane->number("tolerance")};
     }
     if (const auto output = in.table("output")) {

@@ -114,8 +114,8 @@ struct NumericsInput {
 struct MembraneInput {
     MembraneTask task = MembraneTask::relax;
     std::vector<double> forces;  ///< pN
-    double end_fraction = 0.02;
-    double tolerance = 2e-4;  ///< pN
+    std::string experiment;      ///< CSV file to compare with, columns F_pN, DA_um, DT_um; "": none
+    double tolerance = 2e-4;     ///< pN
     bool operator==(const MembraneInput&) const = default;
 };
 

@@ -176,6 +176,11 @@ void check_cells(const toml::table& values, const std::string& name) {
         refuse(name, fmt::format("{} cells in a case of kind \"membrane\"", cells.size()),
                "one cell alone is relaxed or stretched", "Keep one [[cell]]");
     }
+    const auto membrane = Section(case_schema(), values).table("membrane");
+    if (membrane && membrane->numbers("forces").empty()) {
+        refuse(name, "membrane.forces is empty", "there is nothing to apply",
+               "List forces, or leave the key out");
+    }
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto axis = cells[c].vector("axis");
         if (!(std::hypot(axis[0], axis[1], axis[2]) > 0)) {

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
+#include <new>
+#include <string>
 
 #include "apps/commands.hpp"
+#include "apps/output/pictures.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
@@ -40,6 +42,10 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        if (argc > 1 &&
+            std::string(argv[1]) == "render-pictures") {  // the child that draws, see output/pictures.hpp
+            return hemoflux::output::render_pictures_main({argv + 2, argv + argc});
+        }
         return run_program(argc, argv);
     } catch (const hemoflux::Error& error) {
         fmt::print(stderr, "error: {}\n", error.what());

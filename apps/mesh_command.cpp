@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/case.hpp"
+#include "apps/cell_builder.hpp"
 #include "apps/cell_surface.hpp"
 #include "apps/commands.hpp"
 #include "apps/output/vtk_writer.hpp"
@@ -78,17 +79,27 @@ void make_grid_file(const GridArguments& in) {
     }
 }
 
+/// A cell with every key at its default.
+CellInput standard_cell() {
+    return parse_case("title = \"\"\nkind = \"membrane\"\n[[cell]]\n").cells.front();
+}
+
 void make_rbc_file(const RbcArguments& in) {
-    CellInput cell;
-    cell.mesh = "icosphere";
+    CellInput cell = standard_cell();
+    cell.reference =
+        MembraneReference::spheroid;  // the disc; equal springs would print the icosphere's pattern on it
     cell.nodes = in.nodes;
     cell.area = quantity(in.area, "um^2");
+    cell.volume *= std::pow(cell.area / standard_cell().area, 1.5);  // the same shape at another size
     cell.reduced_volume = in.reduced_volume;
     cell.shape = in.shape == "sphere"       ? CellShape::sphere
                  : in.shape == "spheroid"   ? CellShape::spheroid
                  : in.shape == "evans-fung" ? CellShape::evans_fung
                                             : CellShape::discocyte;
-    const meshing::SurfaceMesh mesh = start_shape(cell);
+    meshing::SurfaceMesh mesh = start_shape(cell);
+    if (cell.shape == CellShape::discocyte) {
+        mesh.vertices = build_cell(cell).positions;
+    }
     if (!in.file.empty()) {
         meshing::write_surface(in.file, mesh);
     }

@@ -43,10 +43,14 @@ int run(Arguments& arguments) {
         fmt::print("{}\n# The case can be run.\n", c.resolved);
         return static_cast<int>(Exit::done);
     }
+    if (c.kind == CaseKind::membrane) {
+        return run_membrane(c, arguments.options);
+    }
 #ifdef HEMOFLUX_HAS_RUN
-    return c.kind == CaseKind::membrane ? run_membrane(c, arguments.options) : run_case(c, arguments.options);
+    return run_case(c, arguments.options);
 #else
-    return run_membrane(c, arguments.options);
+    throw InputError("This build cannot run flows", "it was made without apps/run.cpp",
+                     "Use --check, or kind = \"membrane\"");
 #endif
 }
 

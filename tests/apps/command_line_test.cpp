@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "apps/output/history.hpp"
+#include "apps/output/summary.hpp"
 #include "tests/apps/example_case.hpp"
 
 namespace hemoflux::apps {
@@ -150,6 +152,45 @@ TEST_F(CommandLine, MeshRbcPrintsSizesAndWrites) {
     EXPECT_TRUE(fs::exists(folder_ / "rbc.ply"));
     EXPECT_EQ(run("mesh rbc --nodes 100").code, 2);
     EXPECT_EQ(run("mesh rbc --nodes 42 --shape sphere -o rbc.xyz").code, 2);
+}
+
+TEST_F(CommandLine, MembraneRelaxWritesItsFolder) {
+    const Outcome outcome =
+        run("membrane relax --nodes 162 --set cell.0.reference=spheroid --output relaxed");
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    for (const char* file : {"resolved.toml", "summary.json", "cells.pvd", "cells_0000.vtp", "log.txt"}) {
+        EXPECT_TRUE(fs::exists(folder_ / "relaxed" / file)) << file;
+    }
+    EXPECT_NE(outcome.text.find("diameter_um"), std::string::npos) << outcome.text;
+    EXPECT_EQ(run("run relaxed/resolved.toml --quiet -o again").text, "");
+}
+
+TEST_F(CommandLine, MembraneStretchWritesItsCurve) {
+    const Outcome outcome =
+        run("membrane stretch --nodes 642 --reference stress-free --shear-modulus '6.1 uN/m' "
+            "--forces '0 pN' '0.1 nN' --set output.pictures=false --quiet -o pulled");
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_EQ(outcome.text, "");
+    const output::Table table = output::read_table(folder_ / "pulled" / "stretch.csv");
+    EXPECT_EQ(table.columns, (std::vector<std::string>{"force_pN", "axial_um", "transverse_um", "iterations",
+                                                       "area_error", "volume_error"}));
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_DOUBLE_EQ(table.column("force_pN")[1], 100);
+    EXPECT_NEAR(table.column("axial_um")[1], 13.21,
+                0.05);  // an independent implementation of the same method
+    EXPECT_NEAR(table.column("transverse_um")[1], 5.44, 0.05);
+    const output::Summary summary = output::read_summary(folder_ / "pulled" / "summary.json");
+    EXPECT_DOUBLE_EQ(summary.observables.at("axial_diameter_um"), table.column("axial_um")[1]);
+}
+
+TEST_F(CommandLine, MembraneInputIsChecked) {
+    expect_error("membrane relax --nodes 12 -o x", 2, "at least 42 nodes");
+    expect_error("membrane relax --nodes 100 -o x", 2, "642");
+    expect_error("membrane relax --reference unform -o x", 2, "\"uniform\" was meant");
+    expect_error("membrane stretch --forces 100 -o x", 2, "the unit is missing");
+    expect_error("membrane relax --nodes 42 -o /proc/none/x", 4, "/proc/none/x");
+    write("note.txt", "not a run\n");
+    expect_error("membrane relax --nodes 42 -o .", 2, "is not empty");
 }
 
 TEST_F(CommandLine, SchemaIsThePage) {
