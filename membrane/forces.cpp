@@ -194,6 +194,12 @@ struct ForceTask {
     }
 };
 
+/// Batches of one small cell stay on one thread: waking the others takes longer than the work.
+exchange::Cost cost_of(const ForceView& w) {
+    constexpr std::size_t worth_sharing = 1024;
+    return w.cells * w.stride < worth_sharing ? exchange::Cost::cheap : exchange::Cost::heavy;
+}
+
 /// Reads the partial sums of one cell.
 struct PartialSum {
     const CellSums* partial;
@@ -220,12 +226,14 @@ ForceScratch& ForceScratch::operator=(ForceScratch&&) noexcept = default;
 void curvature_pass(const ForceView& view, ForceScratch& scratch) {
     const std::size_t chunks = chunks_of(view.stride);
     CellSums* partial = scratch.memory_->partial.data();
-    exchange::for_each_index(view.cells * chunks, CurvatureTask<exchange::Pack>{view, partial});
+    exchange::for_each_index(view.cells * chunks, CurvatureTask<exchange::Pack>{view, partial},
+                             cost_of(view));
     scratch.memory_->reduction.sum_segments(view.cells, chunks, PartialSum{partial, chunks}, view.sums);
 }
 
 void force_pass(const ForceView& view) {
-    exchange::for_each_index(view.cells * chunks_of(view.stride), ForceTask<exchange::Pack>{view});
+    exchange::for_each_index(view.cells * chunks_of(view.stride), ForceTask<exchange::Pack>{view},
+                             cost_of(view));
 }
 
 }  // namespace hemoflux::membrane

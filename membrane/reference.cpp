@@ -86,11 +86,16 @@ Reference reference_from_shape(const Topology& topology, const std::vector<Vec3d
     return r;
 }
 
+double mean_edge(const Topology& topology, const std::vector<Vec3d>& positions) {
+    const std::vector<double> areas = triangle_areas(topology, positions);
+    const double mean = std::accumulate(areas.begin(), areas.end(), 0.0) / static_cast<double>(areas.size());
+    return std::sqrt(4 * mean / std::sqrt(3.0));
+}
+
 Reference uniform_length_reference(const Topology& topology, const std::vector<Vec3d>& disc, double length) {
     Reference r = reference_from_shape(topology, disc);
-    const double sum = std::accumulate(r.edge_lengths.begin(), r.edge_lengths.end(), 0.0);
-    const double mean = sum / static_cast<double>(r.edge_lengths.size());
-    r.edge_lengths.assign(r.edge_lengths.size(), length == 0 ? uniform_length_ratio * mean : length);
+    r.edge_lengths.assign(r.edge_lengths.size(),
+                          length == 0 ? uniform_length_ratio * mean_edge(topology, disc) : length);
     return r;
 }
 

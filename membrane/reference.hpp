@@ -36,12 +36,16 @@ std::vector<double> edge_lengths(const Topology& topology, const std::vector<Vec
 Reference reference_from_shape(const Topology& topology, const std::vector<Vec3d>& shape,
                                double reduced_curvature = red_blood_cell::reduced_curvature);
 
-/// Length of the pre-stressed springs over the mean edge of the disc: 0.285 um over 0.246 um at 2562
+/// Length of the pre-stressed springs over the mean edge, on any mesh: 0.285 um over 0.246 um at 2562
 /// vertices.
 inline constexpr double uniform_length_ratio = 1.16;
 
+/// Edge of the equilateral triangle of the mean area, um: the mean edge of a shape however its triangles are
+/// drawn out (a relaxed disc's arithmetic mean edge is 2 % longer).
+double mean_edge(const Topology& topology, const std::vector<Vec3d>& positions);
+
 /// As reference_from_shape of a relaxed disc, but with the same L_0 on every edge: `length` um, or 1.16 times
-/// the disc's mean edge on any mesh when length is 0 (Table 6.2).
+/// the disc's mean_edge() when length is 0 (Table 6.2).
 Reference uniform_length_reference(const Topology& topology, const std::vector<Vec3d>& disc,
                                    double length = 0);
 

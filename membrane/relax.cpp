@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numeric>
-#include <stdexcept>
 
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
@@ -76,7 +76,7 @@ class Objective {
     [[nodiscard]] Eigen::Index dimension() const { return static_cast<Eigen::Index>(3 * n_); }
 
     const double tolerance, largest_move;
-    int evaluations = 0;
+    int iterations = 0, evaluations = 0;
     double largest_force = 0, best_energy = 1e99;
     Vector best;
 
@@ -101,6 +101,7 @@ struct ShortSteps {
         step = std::min(step, f.largest_move / direction.cwiseAbs().maxCoeff());
         LBFGSpp::LineSearchBacktracking<Scalar>::LineSearch(f, fx, x, gradient, step, direction, start,
                                                             parameters);
+        ++f.iterations;
         if (f.converged()) gradient.setZero();
     }
 };
@@ -152,16 +153,17 @@ RelaxResult relax(Batch& batch, const RelaxOptions& options, const std::vector<V
     double energy = objective(r, gradient);
     RelaxResult result;
     for (int attempt = 0; attempt <= restarts && !objective.converged(); ++attempt) {
-        parameters.max_iterations = options.max_iterations - result.iterations;
+        parameters.max_iterations = options.max_iterations - objective.iterations;
         if (parameters.max_iterations <= 0) break;
         LBFGSpp::LBFGSSolver<double, ShortSteps> solver(parameters);
         try {
-            result.iterations += solver.minimize(objective, r, energy);
-        } catch (const std::runtime_error&) {
+            solver.minimize(objective, r, energy);
+        } catch (const std::exception&) {  // no lower energy found along the direction
             r = objective.best;
             energy = objective(r, gradient);
         }
     }
+    result.iterations = objective.iterations;
     result.evaluations = objective.evaluations;
     result.largest_force = objective.largest_force;
     result.energy = batch.energies(0).total();

@@ -30,7 +30,7 @@ struct ShapeOptions {
     ReferenceKind reference = ReferenceKind::stress_free;
     Parameters parameters{};
     Route route = Route::evans_fung;
-    double spring_length = 0;  ///< of ReferenceKind::uniform_length, um; 0: 1.16 x the disc's mean edge
+    double spring_length = 0;  ///< of ReferenceKind::uniform_length, um; 0: 1.16 x the disc's mean_edge()
     RelaxOptions relaxation{};
 };
 

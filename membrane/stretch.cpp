@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <functional>
 
 #include "exchange/error.hpp"
 #include "membrane/diagnostics.hpp"
@@ -24,24 +24,33 @@ std::vector<Vec3d> loads(const PulledVertices& pulled, std::size_t vertices, dou
     return load;
 }
 
+/// Mirror images of one another differ in x by what the relaxation left; they count as tied, um.
+constexpr double tie = 1e-4;
+
+/// The vertices furthest along side * x, ascending.
+std::vector<int> outermost(const std::vector<Vec3d>& rest, double side) {
+    const auto count = std::max(1L, std::lround(pulled_fraction * static_cast<double>(rest.size())));
+    std::vector<double> reach;
+    for (const Vec3d& r : rest) reach.push_back(side * r.x);
+    std::vector<double> sorted = reach;
+    std::nth_element(sorted.begin(), sorted.begin() + count - 1, sorted.end(), std::greater<>());
+    const double last = sorted[static_cast<std::size_t>(count) - 1];
+    std::vector<int> chosen;
+    for (std::size_t v = 0; v < rest.size(); ++v)
+        if (reach[v] > last + tie) chosen.push_back(static_cast<int>(v));
+    for (std::size_t v = 0; v < rest.size() && chosen.size() < static_cast<std::size_t>(count); ++v)
+        if (std::fabs(reach[v] - last) <= tie) chosen.push_back(static_cast<int>(v));
+    std::sort(chosen.begin(), chosen.end());
+    return chosen;
+}
+
 }  // namespace
 
 PulledVertices pulled_vertices(const std::vector<Vec3d>& rest) {
     if (rest.size() < 2)
         throw InputError(fmt::format("a cell of {} vertices", rest.size()),
                          "each end needs one to be pulled by", "Use a finer mesh");
-    const auto count =
-        std::max<std::ptrdiff_t>(1, std::lround(pulled_fraction * static_cast<double>(rest.size())));
-    std::vector<int> order(rest.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto x = [&rest](int v) { return rest[static_cast<std::size_t>(v)].x; };
-    PulledVertices pulled;
-    std::stable_sort(order.begin(), order.end(), [&x](int a, int b) { return x(a) < x(b); });
-    pulled.left.assign(order.begin(), order.begin() + count);
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&x](int a, int b) { return x(a) > x(b); });
-    pulled.right.assign(order.begin(), order.begin() + count);
-    return pulled;
+    return {.left = outermost(rest, -1), .right = outermost(rest, 1)};
 }
 
 std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& forces_pN,

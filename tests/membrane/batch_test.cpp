@@ -47,7 +47,7 @@ TEST(Batch, IsBitwiseTheSameWithOneAndTwoThreads) {
             EXPECT_EQ(batch.energies(c).total(), energy[c]);
         }
     }
-    exchange::set_threads(0);
+    exchange::set_threads(1);
 }
 
 TEST(Batch, CellsAreIndependentOfTheirNeighboursInTheBatch) {

@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 
-#include "exchange/backend.hpp"
 #include "tests/membrane/shapes_for_tests.hpp"
 
 namespace hemoflux::membrane {
@@ -43,7 +42,6 @@ class ForceOfTerm : public ::testing::TestWithParam<std::string> {};
 
 /// Fourth-order central differences of the total energy, every component of every vertex.
 TEST_P(ForceOfTerm, IsMinusTheGradientOfTheEnergy) {
-    exchange::set_threads(1);  // 162 vertices are too few to share
     Batch batch = test::rough_batch(2);
     batch.set_parameters(only(GetParam()));
     const auto rest = batch.positions(0);
@@ -70,7 +68,6 @@ TEST_P(ForceOfTerm, IsMinusTheGradientOfTheEnergy) {
         }
     RecordProperty("largest_error", std::to_string(worst / scale * 1e9) + "e-9");
     EXPECT_LT(worst, 1e-7 * scale);
-    exchange::set_threads(0);
 }
 
 TEST_P(ForceOfTerm, HasNoNetForceAndNoTorque) {

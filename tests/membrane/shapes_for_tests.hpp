@@ -6,12 +6,20 @@
 #include <random>
 #include <vector>
 
+#include "exchange/backend.hpp"
 #include "membrane/batch.hpp"
 #include "meshing/evans_fung.hpp"
 #include "meshing/icosphere.hpp"
 #include "meshing/spheroid.hpp"
 
 namespace hemoflux::membrane::test {
+
+/// Cells this small gain little from a second thread, and tests share the machine; the tests about threads
+/// set their own number.
+inline const bool one_thread = [] {
+    exchange::set_threads(1);
+    return true;
+}();
 
 /// Vertices of the spheroid that the discocyte takes its lengths and areas from.
 inline meshing::SurfaceMesh reference_spheroid(int level) {

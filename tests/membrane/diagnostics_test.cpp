@@ -1,0 +1,120 @@
+#include "membrane/diagnostics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "meshing/evans_fung.hpp"
+#include "meshing/icosphere.hpp"
+#include "meshing/spheroid.hpp"
+
+namespace hemoflux::membrane {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A closed box of the given sides with one corner at the origin.
+meshing::SurfaceMesh box(double a, double b, double c) {
+    meshing::SurfaceMesh mesh;
+    for (int i = 0; i < 8; ++i) mesh.vertices.push_back({i & 1 ? a : 0, i & 2 ? b : 0, i & 4 ? c : 0});
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
+/// The mesh turned by an angle (radians) about z, then moved.
+meshing::SurfaceMesh turned(meshing::SurfaceMesh mesh, double angle, const Vec3d& shift = {0, 0, 0}) {
+    for (Vec3d& r : mesh.vertices)
+        r = Vec3d{std::cos(angle) * r.x - std::sin(angle) * r.y,
+                  std::sin(angle) * r.x + std::cos(angle) * r.y, r.z} +
+            shift;
+    return mesh;
+}
+
+ShapeMoments moments(const meshing::SurfaceMesh& mesh) {
+    return shape_moments(mesh.triangles, mesh.vertices);
+}
+
+TEST(ShapeMoments, OfABoxAreExact) {
+    const double a = 4, b = 2, c = 1, faces = a * b + b * c + c * a;
+    const ShapeMoments s = moments(turned(box(a, b, c), 0.3, {10, -7, 3}));
+    EXPECT_NEAR(s.volume, a * b * c, 1e-12);
+    EXPECT_NEAR(s.area, 2 * faces, 1e-12);
+    EXPECT_NEAR(s.centroid.z, 3.5, 1e-12);
+    EXPECT_NEAR(s.centroid.x, 10 + std::cos(0.3) * 2 - std::sin(0.3), 1e-12);
+    // Two faces at +-a/2, four that extend evenly over a.
+    EXPECT_NEAR(s.moments[0], a * a * (b * c / 4 + (a * b + a * c) / 12) / faces, 1e-12);
+    EXPECT_NEAR(s.moments[1], b * b * (a * c / 4 + (a * b + b * c) / 12) / faces, 1e-12);
+    EXPECT_NEAR(s.moments[2], c * c * (a * b / 4 + (a * c + b * c) / 12) / faces, 1e-12);
+    EXPECT_NEAR(std::fabs(s.axes[0].x), std::cos(0.3), 1e-12);
+    EXPECT_NEAR(std::fabs(s.axes[2].z), 1, 1e-12);
+}
+
+TEST(ShapeMoments, ReducedVolumeOfTheSphereIsOne) {
+    EXPECT_NEAR(moments(meshing::icosphere(5, 2.0)).reduced_volume, 1, 1e-3);
+}
+
+TEST(EllipsoidMoments, SphereAndFlatDiscInClosedForm) {
+    for (double m : ellipsoid_moments({2, 2, 2})) EXPECT_NEAR(m, 4.0 / 3, 1e-12);
+    const auto disc = ellipsoid_moments({2, 2, 1e-9});  // two flat discs: R^2/4
+    EXPECT_NEAR(disc[0], 1, 1e-6);
+    EXPECT_NEAR(disc[1], 1, 1e-6);
+}
+
+TEST(EllipsoidMoments, HalfAxesAreRecovered) {
+    for (const std::array<double, 3>& axes :
+         {std::array<double, 3>{1, 1, 1}, {3, 2, 1}, {4, 4, 1.3}, {7, 2, 1.9}, {5, 4.9, 0.5}}) {
+        const auto found = ellipsoid_half_axes(ellipsoid_moments(axes));
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], axes[i], 1e-11 * axes[0]);
+    }
+}
+
+TEST(EllipsoidMoments, HalfAxesOfATriangulatedEllipsoid) {
+    const auto s = moments(meshing::spheroid(meshing::icosphere(5, 1.0), 3, 2, 1.5));
+    const auto axes = ellipsoid_half_axes(s.moments);
+    EXPECT_NEAR(axes[0], 3, 3e-3);
+    EXPECT_NEAR(axes[1], 2, 3e-3);
+    EXPECT_NEAR(axes[2], 1.5, 3e-3);
+    EXPECT_NEAR(taylor_deformation(s), 1.0 / 3, 1e-3);
+}
+
+TEST(Inclination, FollowsTheLongAxis) {
+    const auto ellipsoid = meshing::spheroid(meshing::icosphere(3, 1.0), 3, 1, 2);
+    for (double degrees : {-89.0, -60.0, -0.5, 0.0, 19.5, 45.0, 89.0})
+        EXPECT_NEAR(inclination(moments(turned(ellipsoid, degrees * pi / 180, {6, 6, 6}))), degrees, 1e-9);
+    EXPECT_NEAR(inclination(moments(turned(ellipsoid, 100 * pi / 180))), -80, 1e-9);
+    EXPECT_NEAR(std::fabs(inclination(moments(turned(ellipsoid, pi / 2)))), 90, 1e-9);
+}
+
+TEST(Inclination, OfADiscSeenEdgeOnIsThatOfItsPlane) {
+    for (double along_z : {2.9999, 3.0, 3.0001}) {
+        const auto disc = meshing::spheroid(meshing::icosphere(3, 1.0), 3, 1, along_z);
+        EXPECT_NEAR(inclination(moments(turned(disc, 0.4))), 0.4 * 180 / pi, 1e-6) << along_z;
+    }
+}
+
+TEST(TankTreading, AngleAboutTheCentroid) {
+    EXPECT_DOUBLE_EQ(tank_treading_angle({6, 7, 1}, {6, 6, 6}), pi / 2);
+    EXPECT_DOUBLE_EQ(tank_treading_angle({5, 5, 1}, {6, 6, 6}), -3 * pi / 4);
+}
+
+TEST(Diameters, AreTwiceTheGreatestDistances) {
+    const Diameters d = stretch_diameters({{4, 1, 1}, {-2, 1, 1}, {1, 3, 1}, {1, 1, -2}}, {1, 1, 1});
+    EXPECT_DOUBLE_EQ(d.axial, 6);
+    EXPECT_DOUBLE_EQ(d.transverse, 6);
+}
+
+TEST(DiscMeasures, OfTheEvansFungDiscInAnyOrientation) {
+    meshing::SurfaceMesh mesh = meshing::evans_fung(meshing::icosphere(5, 1.0));
+    double greatest = 0;
+    for (int i = 0; i < 1000; ++i) greatest = std::max(greatest, meshing::evans_fung_thickness(0.00391 * i));
+    for (Vec3d& r : mesh.vertices) r = {r.z + 3, 0.6 * r.x - 0.8 * r.y, 0.8 * r.x + 0.6 * r.y};
+    const DiscMeasures d = disc_measures(mesh.triangles, mesh.vertices);
+    EXPECT_NEAR(d.diameter, 7.82, 5e-3);
+    EXPECT_NEAR(d.centre_thickness, meshing::evans_fung_thickness(0), 5e-3);
+    EXPECT_NEAR(d.greatest_thickness, greatest, 5e-3);
+}
+
+}  // namespace
+}  // namespace hemoflux::membrane
