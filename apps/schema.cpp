@@ -59,16 +59,11 @@ std::string Form::describe() const {
             break;
         case Type::choice:
             words = choices.size() == 1 ? fmt::format("\"{}\"", choices[0])
-                                        : fmt::format("one of \"{}\"", fmt::join(choices, "\", \""));
+                                        : fmt::format("{} \"{}\"", many ? "of the words" : "one of",
+                                                      fmt::join(choices, "\", \""));
             break;
-        case Type::table: {
-            std::vector<std::string> names;
-            for (const Key& key : members.at(0).keys) {
-                names.push_back(key.name);
-            }
-            words = fmt::format("a table {{ {} }}", fmt::join(names, ", "));
-            break;
-        }
+        case Type::table:
+            return fmt::format(many ? "tables [[{}]]" : "a table [{}]", members.at(0).name);
     }
     if (!many) {
         return words;
