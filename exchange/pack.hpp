@@ -91,6 +91,30 @@ HEMOFLUX_INLINE Value gather(const double* p, const int* index) {
     }
 }
 
+/// Values p[0], p[pitch], p[2 pitch], ... of one pack.
+template <class Value>
+HEMOFLUX_INLINE Value load_strided(const double* p, std::ptrdiff_t pitch) {
+    if constexpr (lanes<Value> == 1) {
+        return *p;
+    } else {
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+        return Value([&](auto l) { return p[static_cast<std::ptrdiff_t>(l) * pitch]; });
+#endif
+    }
+}
+
+/// Writes the first `count` lanes of v to p[0], p[pitch], p[2 pitch], ...
+template <class Value>
+HEMOFLUX_INLINE void store_strided(double* p, std::ptrdiff_t pitch, const Value& v, std::ptrdiff_t count) {
+    if constexpr (lanes<Value> == 1) {
+        if (count > 0) *p = v;
+    } else {
+#if !defined(HEMOFLUX_BACKEND_CUDA)
+        for (std::ptrdiff_t l = 0; l < count; ++l) p[l * pitch] = v[static_cast<std::size_t>(l)];
+#endif
+    }
+}
+
 HEMOFLUX_INLINE double minimum(double a, double b) { return a < b ? a : b; }
 HEMOFLUX_INLINE double maximum(double a, double b) { return a > b ? a : b; }
 /// yes where condition holds, else no.

@@ -6,7 +6,11 @@
 ///   mass flux = rho V.n,  momentum flux = Pi_eq - (tau - 1/2)(Pi_eq - Pi_pre)                   (2.4), (2.9)
 ///   tau - 1/2 = 3 nu / (gamma delta)                                                            (2.6)
 ///
-/// with c = 1, c_s^2 = 1/3 and weights 2/9 (rest), 1/9 (axis), 1/72 (corner). Only the n-row of the second
+/// A body force f adds its balanced impulse delta f to the momentum that makes the mass flux and the
+/// convective part of the momentum flux; the viscous part, a difference of moments before streaming, is left
+/// as it is.
+///
+/// Here c = 1, c_s^2 = 1/3; weights 2/9 (rest), 1/9 (axis), 1/72 (corner). Only the n-row of the second
 /// moments is needed, so the 15 nodes are summed in three groups: e.n = +1 (left cell), -1 (right cell), 0
 /// (mean of both).
 #pragma once
@@ -125,24 +129,29 @@ HEMOFLUX_INLINE Quad<Value> face_flux(const FaceSide<Value>& left, const FaceSid
     const Value pre_nn = from_left.all + from_right.all;
     const Value rho =
         pre_nn + axis_weight * ((t1_plus + t1_minus) + (t2_plus + t2_minus)) + rest_weight * rest;
-    Value mn = from_left.all - from_right.all;
-    Value mt1 = from_left.t1 + from_right.t1 + axis_weight * (t1_plus - t1_minus);
-    Value mt2 = from_left.t2 + from_right.t2 + axis_weight * (t2_plus - t2_minus);
+    const Value mn = from_left.all - from_right.all;
+    const Value mt1 = from_left.t1 + from_right.t1 + axis_weight * (t1_plus - t1_minus);
+    const Value mt2 = from_left.t2 + from_right.t2 + axis_weight * (t2_plus - t2_minus);
     const Value pre_nt1 = from_left.t1 - from_right.t1, pre_nt2 = from_left.t2 - from_right.t2;
-    if constexpr (Force) {
-        mn = mn + delta * force[0];
-        mt1 = mt1 + delta * force[1];
-        mt2 = mt2 + delta * force[2];
-    }
-    Value carry = mn / rho;  // rho V_n V = (rho V_n / rho) rho V
-    Value relax = 3.0 * nu * face.inv_delta;
+    Value relax = 3.0 * nu * face.inv_delta, inv_rho = 1.0 / rho;
     if constexpr (Preconditioned) {
-        carry = carry * inv_gamma;
         relax = relax * inv_gamma;
+        inv_rho = inv_rho * inv_gamma;
     }
+    const Value carry = mn * inv_rho;
     const Value eq_nn = (1.0 / 3.0) * rho + carry * mn, eq_nt1 = carry * mt1, eq_nt2 = carry * mt2;
-    return {{mn, eq_nn - relax * (eq_nn - pre_nn), eq_nt1 - relax * (eq_nt1 - pre_nt1),
-             eq_nt2 - relax * (eq_nt2 - pre_nt2)}};
+    Quad<Value> flux{{mn, eq_nn - relax * (eq_nn - pre_nn), eq_nt1 - relax * (eq_nt1 - pre_nt1),
+                      eq_nt2 - relax * (eq_nt2 - pre_nt2)}};
+    if constexpr (Force) {
+        // The impulse changes what is convected, not the viscous stress: Pi_pre knows nothing of it.
+        const Value in = delta * force[0], new_n = mn + in;
+        const Value new_carry = new_n * inv_rho;
+        flux.c[0] = new_n;
+        flux.c[1] = flux.c[1] + (new_carry * new_n - carry * mn);
+        flux.c[2] = flux.c[2] + (new_carry * (mt1 + delta * force[1]) - carry * mt1);
+        flux.c[3] = flux.c[3] + (new_carry * (mt2 + delta * force[2]) - carry * mt2);
+    }
+    return flux;
 }
 
 }  // namespace hemoflux::fluid

@@ -1,0 +1,51 @@
+/// Linearly implicit Euler step in delta form with approximate factorisation (AF), momentum only:
+///
+///   (I - dt nu Lx)(I - dt nu Ly)(I - dt nu Lz) dQ = dt R(Q)
+///   L_x phi_i = [ (phi_{i+1} - phi_i)/s_{i+1/2} - (phi_i - phi_{i-1})/s_{i-1/2} ] / dx_i,
+///
+/// s the distance of the cell centres, with 2 nu instead of nu along a component's own direction (2.45). A
+/// given velocity mirrors the increment (ghost = -dQ), a zero-gradient one copies it, periodic lines are
+/// cyclic (Sherman-Morrison). nu is constant and must be at least half the local viscosity everywhere; the
+/// steady state does not depend on it. The factors depend on dt and the grid only and are computed once.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "exchange/buffer.hpp"
+#include "fluid/boundary.hpp"
+#include "fluid/grid.hpp"
+#include "fluid/residual.hpp"
+
+namespace hemoflux::fluid {
+
+/// Prefactored tridiagonal lines of one component along one axis; trivially copyable.
+struct LineFactors {
+    const double* lower = nullptr;   ///< coefficient of the cell below
+    const double* pivot = nullptr;   ///< reciprocal pivot
+    const double* upper = nullptr;   ///< eliminated coefficient of the cell above
+    const double* cyclic = nullptr;  ///< correction vector of a periodic line, null otherwise
+    double cyclic_last = 0;          ///< weight of the last unknown in the correction
+    double cyclic_scale = 0;         ///< 1 / (1 + v.z)
+};
+
+/// Solves the three factors in place.
+class Factored {
+  public:
+    /// nu: kinematic viscosity of the operator; dt: step. Both in the fluid's units.
+    Factored(const Grid& grid, const Boundary& boundary, double nu, double dt);
+
+    /// r[1..3] <- dQ from r[1..3] = R.
+    void solve(const ResidualView& r) const;
+
+    [[nodiscard]] double dt() const { return dt_; }
+    [[nodiscard]] double nu() const { return nu_; }
+
+  private:
+    exchange::Layout layout_;
+    double nu_, dt_;
+    std::vector<exchange::Buffer<double>> buffers_;
+    std::array<std::array<LineFactors, 3>, 3> factors_;  // [axis][component]
+};
+
+}  // namespace hemoflux::fluid

@@ -1,0 +1,21 @@
+/// Factors of the tridiagonal lines of the AF scheme, computed on the host (see factored.hpp).
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace hemoflux::fluid {
+
+/// Host copy of LineFactors.
+struct HostLine {
+    std::vector<double> lower, pivot, upper, cyclic;
+    double cyclic_last = 0, cyclic_scale = 0;
+};
+
+/// Factors of I - strength L on one axis. widths: cell widths with `ghosts` ghost cells at either end;
+/// periodic: cyclic line; low, high: factor by which a ghost repeats the increment of its border cell (-1
+/// given value, +1 zero gradient).
+HostLine factor_line(const std::vector<double>& widths, std::size_t ghosts, double strength, bool periodic,
+                     double low, double high);
+
+}  // namespace hemoflux::fluid

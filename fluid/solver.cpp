@@ -1,0 +1,124 @@
+#include "fluid/solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "exchange/error.hpp"
+#include "fluid/update.hpp"
+
+namespace hemoflux::fluid {
+namespace {
+
+double delta_limit(const SolverOptions& o) {
+    return o.tau_floor > 0 ? 3 * o.nu / (o.gamma * o.tau_floor) : 1e300;
+}
+
+const SolverOptions& checked(const SolverOptions& o) {
+    if (!(o.nu > 0))
+        throw InputError(fmt::format("viscosity {}", o.nu), "it must be positive",
+                         "give a positive viscosity");
+    if (!(o.gamma > 0 && o.gamma <= 1))
+        throw InputError(fmt::format("gamma {}", o.gamma), "the preconditioning parameter lies in (0, 1]",
+                         "use 1 for no preconditioning");
+    return o;
+}
+
+}  // namespace
+
+Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, const SolverOptions& options)
+    : options_(checked(options)),
+      grid_(grid, (check(patches), periodic_axes(patches)), delta_limit(options)),
+      boundary_(patches, grid_),
+      state_(grid_.view().layout, options.with_force, options.with_viscosity, options.nu),
+      residual_(grid_.view().layout, false, false, 0) {
+    if (options_.largest_nu < options_.nu) options_.largest_nu = options_.nu;
+}
+
+void Solver::initialise(const std::function<FlowPoint(const Vec3d&)>& flow) {
+    const std::size_t cells = grid_.view().layout.cells();
+    std::array<std::vector<double>, 4> q;
+    q.fill(std::vector<double>(cells));
+    for (std::size_t i = 0; i < cells; ++i) {
+        const FlowPoint p = flow(centre(i));
+        q[0][i] = p.density;
+        q[1][i] = p.velocity.x, q[2][i] = p.velocity.y, q[3][i] = p.velocity.z;
+    }
+    for (std::size_t c = 0; c < 4; ++c) state_.set_interior(state_.view().q[c], q[c]);
+}
+
+Vec3d Solver::centre(std::size_t cell) const {
+    const auto& n = grid_.view().layout.n;
+    const std::size_t index[3] = {cell % n[0], cell / n[0] % n[1], cell / (n[0] * n[1])};
+    double x[3];
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto& faces = grid_.rectilinear().axes[a].faces;
+        x[a] = (faces[index[a]] + faces[index[a] + 1]) / 2;
+    }
+    return {x[0], x[1], x[2]};
+}
+
+FlowParameters Solver::flow_parameters() const {
+    return {options_.nu, options_.gamma, options_.with_force, options_.with_viscosity};
+}
+
+ResidualView Solver::residual_view(const State& fields) const {
+    const auto& q = fields.view().q;
+    return {{q[0], q[1], q[2], q[3]}};
+}
+
+void Solver::evaluate() {
+    boundary_.fill(grid_.view(), state_.view());
+    evaluate_residual(grid_.view(), grid_.uniform(), state_.view(), boundary_.view(), flow_parameters(),
+                      residual_view(residual_));
+    ++evaluations_;
+}
+
+void Solver::step(double dt) {
+    if (options_.with_force) boundary_.fill_force(grid_.view(), state_.view());
+    if (options_.with_viscosity) boundary_.fill_viscosity(grid_.view(), state_.view());
+    const exchange::Layout& layout = grid_.view().layout;
+    const ResidualView r = residual_view(residual_);
+    if (options_.scheme == Scheme::euler) {
+        evaluate();
+        update(layout, state_.view(), r, r, {dt, 0, false, false, false}, state_.view());
+        return;
+    }
+    if (options_.scheme == Scheme::factored) {
+        if (!factored_ || factored_->dt() != dt)
+            factored_ = std::make_unique<Factored>(grid_, boundary_, options_.largest_nu, dt);
+        evaluate();
+        factored_->solve(r);
+        update_factored(layout, r, dt, state_.view());
+        return;
+    }
+    if (!base_) {
+        base_ = std::make_unique<State>(layout, false, false, 0);
+        sum_ = std::make_unique<State>(layout, false, false, 0);
+    }
+    for (int c = 0; c < 4; ++c)
+        exchange::copy_on_device(base_->view().q[c], state_.view().q[c], layout.size * sizeof(double));
+    const ResidualView sum = residual_view(*sum_);
+    const double advance[3] = {dt / 2, dt / 2, dt}, weight[4] = {1, 2, 2, 1};
+    for (int stage = 0; stage < 3; ++stage) {
+        evaluate();
+        update(layout, base_->view(), r, sum, {advance[stage], weight[stage], true, stage == 0, false},
+               state_.view());
+    }
+    evaluate();
+    update(layout, base_->view(), r, sum, {dt / 6, weight[3], false, false, true}, state_.view());
+}
+
+void Solver::offer(exchange::FieldTable& table) const {
+    using exchange::Shape;
+    const StateView& v = state_.view();
+    const std::size_t size = grid_.view().layout.size;
+    table.offer("fluid", {"density", Shape::scalar, "rho_0"}, {{v.q[0], nullptr, nullptr}, size});
+    table.offer("fluid", {"velocity", Shape::vector, "c"}, {{v.q[1], v.q[2], v.q[3]}, size});
+    if (v.force[0])
+        table.offer("fluid", {"force_density", Shape::vector, "rho_0 c^2 / um"},
+                    {{v.force[0], v.force[1], v.force[2]}, size});
+    if (v.nu) table.offer("fluid", {"viscosity", Shape::scalar, "um c"}, {{v.nu, nullptr, nullptr}, size});
+}
+
+}  // namespace hemoflux::fluid

@@ -1,0 +1,62 @@
+#include "fluid/time_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fluid/solver.hpp"
+
+namespace hemoflux::fluid {
+namespace {
+
+/// True if noise in a periodic cube stays bounded at this step. nu / h = 4: viscosity rules, sound does not
+/// matter.
+bool stable(Scheme scheme, double dt_nu_over_h2) {
+    constexpr int n = 8;
+    constexpr double h = 1.0 / n;
+    meshing::RectilinearGrid grid;
+    grid.axes.fill(meshing::uniform_axis(0, 1, n));
+    Patches p;
+    p.fill(periodic_patch());
+    SolverOptions o;
+    o.nu = 4 * h;
+    o.scheme = scheme;
+    Solver solver(grid, p, o);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> noise(-1e-6, 1e-6);
+    solver.initialise([&](const Vec3d&) {
+        return FlowPoint{1, {noise(random), noise(random), noise(random)}};
+    });
+    const double dt = dt_nu_over_h2 * h * h / o.nu;
+    for (int s = 0; s < 400; ++s) solver.step(dt);
+    return solver.largest_speed() < 1e-5;
+}
+
+}  // namespace
+
+// The largest viscous eigenvalue is 16 nu / h^2: forward Euler is stable up to h^2 / (8 nu), RK4 up to h^2 /
+// (5.8 nu).
+TEST(TimeStep, ViscousLimits) {
+    EXPECT_TRUE(stable(Scheme::euler, 0.97 / 8));
+    EXPECT_FALSE(stable(Scheme::euler, 1.04 / 8));
+    EXPECT_TRUE(stable(Scheme::rk4, 0.97 * 2.785 / 16));
+    EXPECT_FALSE(stable(Scheme::rk4, 1.04 * 2.785 / 16));
+}
+
+TEST(TimeStep, EigenvaluesOnAUniformGrid) {
+    constexpr double h = 0.1;
+    meshing::RectilinearGrid rg;
+    rg.axes.fill(meshing::uniform_axis(0, 1, 10));
+    const Grid grid(rg, {true, true, true});
+    EXPECT_NEAR(viscous_eigenvalue(grid, 0.3), 16 * 0.3 / (h * h), 1e-9);
+    EXPECT_NEAR(acoustic_eigenvalue(grid, 0.05), 3 * 0.05 / h + 1 / h, 1e-9);  // c_s sqrt(3) / h = 1 / h
+    EXPECT_NEAR(stable_step(grid, Scheme::factored, 0.3, 0.0), 0.8 * h, 1e-12);
+}
+
+// The factored scheme stays stable far beyond the explicit viscous limit (here 31 times it), up to dt c = h.
+TEST(TimeStep, FactoredIsBoundBySoundOnly) {
+    EXPECT_TRUE(stable(Scheme::factored, 0.98 * 4));
+    EXPECT_FALSE(stable(Scheme::factored, 1.05 * 4));
+}
+
+}  // namespace hemoflux::fluid
