@@ -63,7 +63,8 @@ std::string Form::describe() const {
                                                       fmt::join(choices, "\", \""));
             break;
         case Type::table:
-            return fmt::format(many ? "tables [[{}]]" : "a table [{}]", members.at(0).name);
+            return many ? fmt::format("tables [[{}]]", members.at(0).name)
+                        : fmt::format("a table [{}]", members.at(0).name);
     }
     if (!many) {
         return words;
