@@ -59,7 +59,7 @@ std::string Form::describe() const {
             break;
         case Type::choice:
             words = choices.size() == 1 ? fmt::format("\"{}\"", choices[0])
-                                        : fmt::format("{} \"{}\"", many ? "of the words" : "one of",
+                                        : fmt::format("{} \"{}\"", many ? "words of" : "one of",
                                                       fmt::join(choices, "\", \""));
             break;
         case Type::table:
