@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -136,6 +137,32 @@ TEST(Viscosity, RecomputesOnlyAfterMotionThatMatters) {
     auto broken = base;
     broken[7].y = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(update(broken));  // must neither be skipped nor crash
+}
+
+// What a skipped update leaves stale stays within the stated bound, (normal + total^2 h kappa / 2) of d/h.
+TEST(Viscosity, SkippedUpdatesStayWithinTheStatedBound) {
+    const auto axis = meshing::uniform_axis(-3, 3, 20);
+    const CellGrid cells({{axis, axis, axis}}, {false, false, false});
+    const double h = 0.3, radius = 2.0, angle = 0.45 * h / radius;
+    const auto mesh = meshing::icosphere(3, radius);
+    std::vector<Vec3d> later;
+    for (const Vec3d& p : mesh.vertices)
+        later.push_back({std::cos(angle) * p.x - std::sin(angle) * p.y + 0.03 * h,
+                         std::sin(angle) * p.x + std::cos(angle) * p.y, p.z});
+    const test::Points before(mesh.vertices), after(later);
+    InteriorViscosity viscosity(cells, mesh.triangles, mesh.vertices.size(), {2.0}, 1.0);
+    exchange::Buffer<double> nu(cells.view().layout.size);
+    viscosity.update(before[0], before[1], before[2], nu.data());
+    ASSERT_FALSE(viscosity.update(after[0], after[1], after[2], nu.data()));
+    const auto stale = nu.to_host();
+    viscosity.recompute(after[0], after[1], after[2], nu.data());
+    const auto fresh = nu.to_host();
+    const MotionLimits limits;
+    double largest = 0;
+    for (std::size_t c = 0; c < fresh.size(); ++c)
+        largest = std::max(largest, std::fabs(fresh[c] - stale[c]));
+    EXPECT_LE(largest, limits.normal + limits.total * limits.total * h / radius / 2);
+    EXPECT_GT(largest, 0.01);
 }
 
 // A run restarted from the positions of the last recomputation takes the same decisions and has the same
