@@ -46,12 +46,7 @@ int run(Arguments& arguments) {
     if (c.kind == CaseKind::membrane) {
         return run_membrane(c, arguments.options);
     }
-#ifdef HEMOFLUX_HAS_RUN
     return run_case(c, arguments.options);
-#else
-    throw InputError("This build cannot run flows", "it was made without apps/run.cpp",
-                     "Use --check, or kind = \"membrane\"");
-#endif
 }
 
 }  // namespace

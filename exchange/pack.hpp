@@ -125,16 +125,16 @@ HEMOFLUX_INLINE double absolute(double a) { return std::fabs(a); }
 HEMOFLUX_INLINE double lane_sum(double a) { return a; }
 
 #if !defined(HEMOFLUX_BACKEND_CUDA)
-inline Pack minimum(const Pack& a, const Pack& b) { return std::experimental::min(a, b); }
-inline Pack maximum(const Pack& a, const Pack& b) { return std::experimental::max(a, b); }
-inline Pack select(const Pack::mask_type& condition, const Pack& yes, const Pack& no) {
+HEMOFLUX_INLINE Pack minimum(const Pack& a, const Pack& b) { return std::experimental::min(a, b); }
+HEMOFLUX_INLINE Pack maximum(const Pack& a, const Pack& b) { return std::experimental::max(a, b); }
+HEMOFLUX_INLINE Pack select(const Pack::mask_type& condition, const Pack& yes, const Pack& no) {
     Pack r = no;
     std::experimental::where(condition, r) = yes;
     return r;
 }
-inline Pack square_root(const Pack& a) { return std::experimental::sqrt(a); }
-inline Pack absolute(const Pack& a) { return std::experimental::abs(a); }
-inline double lane_sum(const Pack& a) {
+HEMOFLUX_INLINE Pack square_root(const Pack& a) { return std::experimental::sqrt(a); }
+HEMOFLUX_INLINE Pack absolute(const Pack& a) { return std::experimental::abs(a); }
+HEMOFLUX_INLINE double lane_sum(const Pack& a) {
     double s = 0;
     for (std::size_t l = 0; l < pack_lanes; ++l) s += a[l];
     return s;

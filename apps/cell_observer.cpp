@@ -1,0 +1,139 @@
+#include "apps/cell_observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "membrane/diagnostics.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, degrees = 180 / pi;
+constexpr double attojoule_per_unit = 10;  // 1e-17 J
+
+/// Slope of y(x) by least squares over the records of the window; NaN with fewer than two.
+double slope(const std::vector<double>& x, const std::vector<double>& y) {
+    double mx = 0, my = 0, xy = 0, xx = 0;
+    const auto n = static_cast<double>(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) mx += x[i] / n, my += y[i] / n;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xy += (x[i] - mx) * (y[i] - my);
+        xx += (x[i] - mx) * (x[i] - mx);
+    }
+    return xx > 0 ? xy / xx : NAN;
+}
+
+double mean(const std::vector<double>& y) {
+    double sum = 0;
+    for (const double v : y) sum += v;
+    return y.empty() ? NAN : sum / static_cast<double>(y.size());
+}
+
+}  // namespace
+
+const std::vector<std::string>& cell_columns() {
+    static const std::vector<std::string> names{
+        "x_um",     "y_um",          "z_um",       "inclination_deg", "tank_treading_deg", "taylor_d",
+        "axial_um", "transverse_um", "area_error", "volume_error",    "energy_aJ"};
+    return names;
+}
+
+CellObserver::CellObserver(const membrane::Batch& cells) : cells_(cells.cells()), turned_(cells_, 0.0) {
+    for (std::size_t c = 0; c < cells_; ++c) {
+        const auto positions = cells.positions(c);
+        const auto m = membrane::shape_moments(cells.topology().triangles(), positions);
+        volume0_.push_back(m.volume);
+        area0_.push_back(m.area);
+        start_.insert(start_.end(), {m.centroid.x, m.centroid.y, m.centroid.z});
+        const auto farthest = std::max_element(positions.begin(), positions.end(),
+                                               [](const Vec3d& a, const Vec3d& b) { return a.x < b.x; });
+        marked_.push_back(static_cast<double>(farthest - positions.begin()));
+        turned_[c] = membrane::tank_treading_angle(*farthest, m.centroid);
+    }
+}
+
+std::vector<double> CellObserver::observe(membrane::Batch& cells, double strain) {
+    cells.compute_forces();
+    std::vector<double> row;
+    strain_.push_back(strain);
+    for (std::size_t c = 0; c < cells_; ++c) {
+        const auto positions = cells.positions(c);
+        const auto m = membrane::shape_moments(cells.topology().triangles(), positions);
+        const auto diameters = membrane::stretch_diameters(positions, m.centroid);
+        const double inclination = membrane::inclination(m), taylor = membrane::taylor_deformation(m);
+        const double angle =
+            membrane::tank_treading_angle(positions[static_cast<std::size_t>(marked_[c])], m.centroid);
+        turned_[c] += std::remainder(angle - turned_[c], 2 * pi);
+        const double area_error = m.area / area0_[c] - 1, volume_error = m.volume / volume0_[c] - 1;
+        row.insert(row.end(), {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees,
+                               taylor, diameters.axial, diameters.transverse, area_error, volume_error,
+                               cells.energies(c).total() * attojoule_per_unit});
+        inclination_.push_back(inclination);
+        angle_.push_back(turned_[c]);
+        taylor_.push_back(taylor);
+        const Vec3d start{start_[3 * c], start_[3 * c + 1], start_[3 * c + 2]};
+        volume_error_ = std::max(volume_error_, std::abs(volume_error));
+        area_error_ = std::max(area_error_, std::abs(area_error));
+        centroid_distance_ = std::max(centroid_distance_, norm(m.centroid - start));
+    }
+    return row;
+}
+
+std::vector<double> CellObserver::inclinations(std::size_t cell) const {
+    std::vector<double> one;
+    for (std::size_t i = 0; i < strain_.size(); ++i) one.push_back(inclination_[i * cells_ + cell]);
+    return one;
+}
+
+std::map<std::string, double> CellObserver::observables(double from, double to) const {
+    std::map<std::string, double> sum;
+    for (std::size_t c = 0; c < cells_; ++c) {
+        std::vector<double> x, inclination, angle, taylor;
+        for (std::size_t i = 0; i < strain_.size(); ++i) {
+            if (!(strain_[i] >= from - 1e-9 && strain_[i] <= to + 1e-9)) continue;
+            x.push_back(strain_[i]);
+            inclination.push_back(inclination_[i * cells_ + c]);
+            angle.push_back(angle_[i * cells_ + c]);
+            taylor.push_back(taylor_[i * cells_ + c]);
+        }
+        std::map<std::string, double> one;
+        one["inclination_deg"] = mean(inclination);
+        const auto [low, high] = std::minmax_element(inclination.begin(), inclination.end());
+        one["inclination_amplitude_deg"] = inclination.empty() ? NAN : (*high - *low) / 2;
+        one["taylor_d"] = mean(taylor);
+        const double rate = std::abs(slope(x, angle));
+        one["period_strain"] = 2 * pi / rate;
+        one["tank_treading_cycles_per_strain"] = rate / (2 * pi);
+        for (const auto& [name, value] : one) sum[name] += value / static_cast<double>(cells_);
+    }
+    return sum;
+}
+
+void CellObserver::save(output::Checkpoint& checkpoint) const {
+    checkpoint.put("observer.volume0", volume0_);
+    checkpoint.put("observer.area0", area0_);
+    checkpoint.put("observer.start", start_);
+    checkpoint.put("observer.marked", marked_);
+    checkpoint.put("observer.turned", turned_);
+    checkpoint.put("observer.worst", {volume_error_, area_error_, centroid_distance_});
+    checkpoint.put("observer.strain", strain_);
+    checkpoint.put("observer.inclination", inclination_);
+    checkpoint.put("observer.angle", angle_);
+    checkpoint.put("observer.taylor", taylor_);
+}
+
+void CellObserver::load(const output::Checkpoint& checkpoint) {
+    volume0_ = checkpoint.array("observer.volume0", cells_);
+    area0_ = checkpoint.array("observer.area0", cells_);
+    start_ = checkpoint.array("observer.start", 3 * cells_);
+    marked_ = checkpoint.array("observer.marked", cells_);
+    turned_ = checkpoint.array("observer.turned", cells_);
+    const auto& worst = checkpoint.array("observer.worst", 3);
+    volume_error_ = worst[0], area_error_ = worst[1], centroid_distance_ = worst[2];
+    strain_ = checkpoint.array("observer.strain");
+    inclination_ = checkpoint.array("observer.inclination", strain_.size() * cells_);
+    angle_ = checkpoint.array("observer.angle", strain_.size() * cells_);
+    taylor_ = checkpoint.array("observer.taylor", strain_.size() * cells_);
+}
+
+}  // namespace hemoflux::apps

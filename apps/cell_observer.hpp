@@ -1,0 +1,52 @@
+/// Diagnostics of the cells of a coupled run: one record per cell and time, and what a whole run shows.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "apps/output/checkpoint.hpp"
+#include "membrane/batch.hpp"
+
+namespace hemoflux::apps {
+
+/// Names of one cell's columns in history.csv, without the "c." in front.
+const std::vector<std::string>& cell_columns();
+
+/// Follows the cells of a batch.
+class CellObserver {
+  public:
+    /// Takes volume, area and centroid of every cell now as those at t = 0, and its vertex farthest in x as
+    /// the material point of the tank-treading angle.
+    explicit CellObserver(const membrane::Batch& cells);
+
+    /// Values of cell_columns() for every cell in turn, as the cells are now (forces are computed for the
+    /// energies).
+    std::vector<double> observe(membrane::Batch& cells, double strain);
+
+    /// Observables over the strain window [from, to]; names carry their unit. For several cells the mean over
+    /// cells; of the first cell where a mean says nothing.
+    [[nodiscard]] std::map<std::string, double> observables(double from, double to) const;
+
+    /// Largest |V/V(0) - 1|, |A/A(0) - 1| and distance of a centroid from its start (um) seen so far.
+    [[nodiscard]] double volume_error() const { return volume_error_; }
+    [[nodiscard]] double area_error() const { return area_error_; }
+    [[nodiscard]] double centroid_distance() const { return centroid_distance_; }
+
+    /// Strain and inclination (degrees) of one cell over the run, for plots.
+    [[nodiscard]] const std::vector<double>& strains() const { return strain_; }
+    [[nodiscard]] std::vector<double> inclinations(std::size_t cell) const;
+
+    /// State for a checkpoint, and back.
+    void save(output::Checkpoint& checkpoint) const;
+    void load(const output::Checkpoint& checkpoint);
+
+  private:
+    std::size_t cells_;
+    std::vector<double> volume0_, area0_, start_, marked_;  // marked_: vertex numbers
+    std::vector<double> turned_;                            // unwrapped tank-treading angle, rad
+    double volume_error_ = 0, area_error_ = 0, centroid_distance_ = 0;
+    std::vector<double> strain_, inclination_, angle_, taylor_;  // per record, cells side by side
+};
+
+}  // namespace hemoflux::apps

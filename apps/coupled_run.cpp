@@ -1,0 +1,203 @@
+#include "apps/coupled_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "apps/interrupt.hpp"
+#include "apps/output/plot.hpp"
+#include "apps/output/progress.hpp"
+#include "exchange/backend.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+/// Steps between two looks for NaN and lost nodes.
+constexpr long long watch_interval = 25;
+
+std::vector<std::string> history_columns(std::size_t cells) {
+    std::vector<std::string> columns{"step", "time_s", "strain"};
+    for (std::size_t c = 0; c < cells; ++c)
+        for (const std::string& name : cell_columns()) columns.push_back(fmt::format("{}.{}", c, name));
+    columns.insert(columns.end(), {"mean_density", "residual", "dt_s"});
+    return columns;
+}
+
+/// The run while it goes on.
+class CoupledRun {
+  public:
+    CoupledRun(const Case& c, const RunOptions& options)
+        : case_(c), options_(options), files_(c, options), system_(c), observer_(*system_.cells) {}
+
+    int go() {
+        const auto start = std::chrono::steady_clock::now();
+        begin();
+        int code = static_cast<int>(Exit::done);
+        try {
+            code = march();
+        } catch (const NumericalError&) {
+            keep_last_good_state();
+            throw;
+        }
+        wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        finish(code);
+        return code;
+    }
+
+  private:
+    void begin() {
+        files_.log().info(describe(case_, system_));
+        if (files_.restart()) {
+            system_.load(*files_.restart());
+            observer_.load(*files_.restart());
+            evaluations_before_ = files_.restart()->number("evaluations");
+            first_density_ = files_.restart()->number("first_density");
+        } else {
+            first_density_ = system_.fluid->mean_density();
+        }
+        done_ = files_.first_step();
+        files_.start_history(history_columns(system_.cells->cells()));
+        files_.start_series(system_.plan.at(done_));
+        if (!files_.restart()) {
+            record();
+            frame();
+        }
+        good_ = checkpoint();
+        good_step_ = done_;
+    }
+
+    int march() {
+        output::Progress progress(system_.plan.at(done_), system_.plan.at(system_.plan.steps), "strain",
+                                  options_.quiet);
+        const auto cells = static_cast<double>(system_.fluid->grid().view().layout.cells());
+        while (done_ < system_.plan.steps) {
+            system_.loop->step(system_.numerics.step);
+            ++done_;
+            const bool last = done_ == system_.plan.steps;
+            const bool write = last || due(system_.plan, done_, case_.output.interval_strain);
+            const bool row = write || due(system_.plan, done_, case_.output.history_interval_strain);
+            const bool save = last || due(system_.plan, done_, case_.output.checkpoint_interval_strain);
+            const bool stop = interrupted();
+            if (row || save || stop || done_ % watch_interval == 0) system_.loop->check();
+            if (row) record();
+            if (write) frame();
+            if (row) remember();
+            if (save || stop) files_.write_checkpoint(checkpoint(), done_);
+            progress.update(
+                {done_, system_.plan.at(done_), cells * static_cast<double>(system_.fluid->evaluations())});
+            if (stop && !last) return static_cast<int>(Exit::interrupted);
+        }
+        return static_cast<int>(Exit::done);
+    }
+
+    void record() {
+        const double strain = system_.plan.at(done_);
+        std::vector<double> row{static_cast<double>(done_), strain / *case_.shear_rate, strain};
+        const auto cells = observer_.observe(*system_.cells, strain);
+        row.insert(row.end(), cells.begin(), cells.end());
+        row.insert(row.end(), {system_.fluid->mean_density(), system_.fluid->residual_norm().density,
+                               system_.numerics.step_seconds});
+        files_.add_row(row);
+    }
+
+    void frame() {
+        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(),
+                           system_.plan.at(done_));
+    }
+
+    /// Keeps the state in memory, as the last one known to be good.
+    void remember() {
+        good_ = checkpoint();
+        good_step_ = done_;
+    }
+
+    void keep_last_good_state() {
+        files_.write_checkpoint(good_, good_step_);
+        files_.log().warn(fmt::format("the last good state (step {}, strain {:.4g}) is kept in {}",
+                                      good_step_, system_.plan.at(good_step_),
+                                      output::checkpoint_file(files_.folder().path(), good_step_).string()));
+    }
+
+    [[nodiscard]] output::Checkpoint checkpoint() const {
+        output::Checkpoint cp;
+        system_.save(cp);
+        observer_.save(cp);
+        cp.put_number("evaluations", evaluations());
+        cp.put_number("first_density", first_density_);
+        return cp;
+    }
+
+    [[nodiscard]] double evaluations() const {
+        return evaluations_before_ + static_cast<double>(system_.fluid->evaluations());
+    }
+
+    void finish(int code) {
+        if (code == static_cast<int>(Exit::interrupted)) {
+            files_.log().warn(
+                fmt::format("interrupted at strain {:.4g}; continue with: hemoflux run --restart {}",
+                            system_.plan.at(done_), files_.folder().path().string()));
+            return;
+        }
+        const double strain = system_.plan.at(done_);
+        output::Summary s = start_summary(case_);
+        const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
+        s.observables = observer_.observables(window[0], window[1]);
+        s.observables["strain"] = strain;
+        s.conservation.volume = observer_.volume_error();
+        s.conservation.area = observer_.area_error();
+        s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;
+        s.conservation.centroid_um = observer_.centroid_distance();
+        const double here = strain - system_.plan.at(files_.first_step());
+        s.performance.wall_s = wall_s_;
+        s.performance.cpu_s = output::cpu_seconds();
+        s.performance.steps = static_cast<double>(done_);
+        s.performance.residuals_per_strain = evaluations() / strain;
+        s.performance.cell_residuals_per_s =
+            static_cast<double>(system_.fluid->evaluations()) *
+            static_cast<double>(system_.fluid->grid().view().layout.cells()) / wall_s_;
+        if (!(here > 0)) s.performance.cell_residuals_per_s = NAN;
+        s.performance.peak_rss_mib = output::peak_rss_mib();
+        s.errors_estimated = system_.numerics.errors;
+        output::write_summary(files_.folder().summary(), s);
+        files_.log().info(output::to_table(s));
+        plot_inclination();
+        draw_pictures(case_, files_);
+        files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+    }
+
+    void plot_inclination() const {
+        if (!case_.output.pictures) return;
+        output::PlotSpec spec{
+            .title = case_.title, .x_label = "strain G t", .y_label = "inclination / degrees", .curves = {}};
+        for (std::size_t c = 0; c < system_.cells->cells(); ++c)
+            spec.curves.push_back({.label = fmt::format("cell {}", c),
+                                   .x = observer_.strains(),
+                                   .y = observer_.inclinations(c)});
+        for (const ReferenceInput& r : case_.references)
+            if (r.observable == "inclination_deg" && r.low && r.high)
+                spec.bands.push_back({"reference", *r.low, *r.high});
+        if (const auto message = output::plot(spec, files_.folder().path() / "plot_inclination"))
+            files_.log().warn(*message);
+    }
+
+    const Case& case_;
+    const RunOptions& options_;
+    RunFiles files_;
+    CoupledSystem system_;
+    CellObserver observer_;
+    long long done_ = 0, good_step_ = 0;
+    output::Checkpoint good_;
+    double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;
+};
+
+}  // namespace
+
+int run_coupled(const Case& c, const RunOptions& options) {
+    catch_interrupts();
+    if (options.threads > 0) exchange::set_threads(options.threads);
+    return CoupledRun(c, options).go();
+}
+
+}  // namespace hemoflux::apps

@@ -1,0 +1,48 @@
+/// A coupled run: fluid and cells advanced together, with everything written that a run leaves behind.
+#pragma once
+
+#include <memory>
+
+#include "apps/case.hpp"
+#include "apps/cell_observer.hpp"
+#include "apps/flow_setup.hpp"
+#include "apps/run.hpp"
+#include "apps/run_files.hpp"
+#include "apps/schedule.hpp"
+#include "coupling/loop.hpp"
+#include "coupling/scaling.hpp"
+#include "membrane/shapes.hpp"
+
+namespace hemoflux::apps {
+
+/// The solvers of a coupled case, set up at t = 0.
+class CoupledSystem {
+  public:
+    /// Builds grid, cells and fluid. Throws InputError, NumericalError (a relaxation failed), FileError.
+    explicit CoupledSystem(const Case& c);
+
+    /// State for a checkpoint, and back.
+    void save(output::Checkpoint& checkpoint) const;
+    void load(const output::Checkpoint& checkpoint);
+
+    coupling::Numerics numerics;
+    StepPlan plan;  ///< in strain
+    Scales scales;
+    std::unique_ptr<membrane::Batch> cells;
+    std::unique_ptr<fluid::Solver> fluid;
+    std::unique_ptr<coupling::Loop> loop;
+};
+
+/// The numbers of a coupled case: capillary scaling and step. `cells` are those of the case.
+coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid);
+
+/// Total strain of a case.
+double strain_of(const Case& c);
+
+/// The conversion table and the chosen numbers, for the start-up summary.
+std::string describe(const Case& c, const CoupledSystem& system);
+
+/// Runs a case of kind coupled; see run_case().
+int run_coupled(const Case& c, const RunOptions& options);
+
+}  // namespace hemoflux::apps

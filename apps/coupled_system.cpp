@@ -1,0 +1,204 @@
+// Setting up a coupled run, and its checkpoints.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/cell_builder.hpp"
+#include "apps/cell_surface.hpp"
+#include "apps/coupled_run.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+coupling::Kernel kernel_of(Kernel kernel) {
+    switch (kernel) {
+        case Kernel::phi2:
+            return coupling::Kernel::phi2;
+        case Kernel::phi3:
+            return coupling::Kernel::phi3;
+        case Kernel::phi4:
+            return coupling::Kernel::phi4;
+        case Kernel::lagrange:
+            break;
+    }
+    return coupling::Kernel::lagrange;
+}
+
+/// All cells share one topology and one set of moduli: they may differ in place, axis and cytosol only.
+void check_same_kind(const std::vector<CellInput>& cells) {
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        CellInput same = cells[i];
+        same.position = cells[0].position;
+        same.axis = cells[0].axis;
+        same.cytosol_viscosity = cells[0].cytosol_viscosity;
+        if (!(same == cells[0]))
+            throw InputError(
+                fmt::format("[[cell]] number {}", i),
+                "cells of one run share mesh, shape, reference and moduli, and it differs from the first",
+                "let it differ in position, axis and cytosol_viscosity only");
+    }
+}
+
+void check_supported(const Case& c) {
+    if (!c.shear_rate)
+        throw InputError("[shear] rate",
+                         "a coupled run takes its clock, the strain, from the shear rate and none is given",
+                         "give a rate");
+    if (c.acceleration != Triple{})
+        throw InputError("[body_force]", "in a coupled run the force field belongs to the membranes",
+                         "drive the flow by its boundaries, or use kind = \"fluid\"");
+    if (c.numerics.gamma != 1)
+        throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma),
+                         "preconditioning changes the path in time, and a coupled run is unsteady",
+                         "set it to 1");
+    for (const CellInput& cell : c.cells)
+        if (cell.membrane_viscosity != 0)
+            throw InputError(
+                "cell.membrane_viscosity",
+                "the explicit membrane viscosity (6.40) is unstable in a viscous fluid at any step",
+                "leave it out or set it to 0 in coupled runs");
+}
+
+std::unique_ptr<membrane::Batch> make_cells(const Case& c) {
+    check_same_kind(c.cells);
+    const membrane::Cell cell = build_cell(c.cells.front());
+    auto batch =
+        std::make_unique<membrane::Batch>(cell.topology, cell.parameters, cell.reference, c.cells.size());
+    for (std::size_t i = 0; i < c.cells.size(); ++i) {
+        meshing::SurfaceMesh mesh{cell.positions, cell.topology->triangles()};
+        place(mesh, c.cells[i].axis, c.cells[i].position);
+        batch->set_positions(i, mesh.vertices);
+    }
+    return batch;
+}
+
+std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::RectilinearGrid& grid,
+                                          const coupling::Numerics& n, const Scales& scales) {
+    fluid::SolverOptions o;
+    o.nu = n.nu;
+    o.largest_nu = n.largest_nu;
+    o.with_force = true;
+    o.with_viscosity = std::any_of(c.cells.begin(), c.cells.end(), [&](const CellInput& cell) {
+        return cell.cytosol_viscosity != c.fluid.viscosity;
+    });
+    o.tau_floor = c.numerics.tau_floor;
+    o.scheme = scheme_of(c.time.scheme);
+    auto solver = std::make_unique<fluid::Solver>(grid, make_patches(c, scales, n.rate), o);
+    solver->initialise(initial_flow(c, n.rate));
+    return solver;
+}
+
+std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numerics& n, fluid::Solver& fluid,
+                                          membrane::Batch& cells) {
+    coupling::LoopOptions o;
+    o.kernel = kernel_of(c.coupling.kernel);
+    o.force_factor = n.force_factor;
+    o.recentre = c.coupling.recentre;
+    o.smoothing.local_cells = c.coupling.smoothing;
+    if (fluid.options().with_viscosity)
+        for (const CellInput& cell : c.cells)
+            o.nu_inside.push_back(n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
+    return std::make_unique<coupling::Loop>(fluid, cells, o);
+}
+
+constexpr const char* fluid_names[4] = {"fluid.density", "fluid.u", "fluid.v", "fluid.w"};
+
+}  // namespace
+
+double strain_of(const Case& c) {
+    return c.time.strain ? *c.time.strain : *c.time.duration * c.shear_rate.value_or(0);
+}
+
+coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid) {
+    check_supported(c);
+    const CellInput& cell = c.cells.front();
+    coupling::PhysicalCase p;
+    p.density = c.fluid.density;
+    p.viscosity = c.fluid.viscosity;
+    for (const CellInput& each : c.cells)
+        p.largest_cytosol = std::max(p.largest_cytosol, each.cytosol_viscosity);
+    p.shear_rate = *c.shear_rate;
+    p.shear_modulus = cell.shear_modulus;
+    p.radius = std::sqrt(cell.area / (4 * M_PI));
+    p.wall_distance = shear_reach(grid);
+    p.smallest_cell = grid.smallest();
+    coupling::NumericsChoice choice;
+    choice.lattice_viscosity = c.numerics.lattice_viscosity;
+    choice.reynolds = c.numerics.reynolds;
+    choice.mach = c.numerics.mach.value_or(0);
+    choice.step_strain = c.time.step ? *c.time.step * *c.shear_rate : c.numerics.step_strain.value_or(0);
+    choice.kernel = kernel_of(c.coupling.kernel);
+    choice.factored = c.time.scheme == TimeScheme::factored;
+    choice.real_limit = c.time.scheme == TimeScheme::rk4 ? fluid::real_limit_rk4 : fluid::real_limit_euler;
+    return coupling::choose_numerics(p, choice);
+}
+
+CoupledSystem::CoupledSystem(const Case& c)
+    : numerics(numerics_of(c, make_grid(c.grid))), plan(strain_of(c), numerics.step_strain) {
+    const meshing::RectilinearGrid grid = make_grid(c.grid);
+    numerics.step_strain = plan.step;
+    numerics.step = plan.step / numerics.rate;
+    numerics.step_seconds = plan.step / *c.shear_rate;
+    scales = {numerics.velocity_um_per_s, c.fluid.viscosity * *c.shear_rate / (numerics.nu * numerics.rate),
+              c.fluid.viscosity / numerics.nu, c.fluid.density};
+    cells = make_cells(c);
+    fluid = make_fluid(c, grid, numerics, scales);
+    loop = make_loop(c, numerics, *fluid, *cells);
+}
+
+void CoupledSystem::save(output::Checkpoint& checkpoint) const {
+    for (int q = 0; q < 4; ++q)
+        checkpoint.put(fluid_names[q], fluid->state().interior(fluid->state().view().q[q]));
+    checkpoint.put("membrane.x", cells->x().to_host());
+    checkpoint.put("membrane.y", cells->y().to_host());
+    checkpoint.put("membrane.z", cells->z().to_host());
+    const coupling::LoopMemory memory = loop->memory();
+    checkpoint.put("loop.viscosity_x", memory.viscosity_nodes[0]);
+    checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
+    checkpoint.put("loop.viscosity_z", memory.viscosity_nodes[2]);
+    checkpoint.put("loop.target", {memory.target.begin(), memory.target.end()});
+}
+
+void CoupledSystem::load(const output::Checkpoint& checkpoint) {
+    const std::size_t grid_cells = fluid->grid().view().layout.cells(), nodes = cells->x().size();
+    for (int q = 0; q < 4; ++q)
+        fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
+    cells->x().assign(checkpoint.array("membrane.x", nodes));
+    cells->y().assign(checkpoint.array("membrane.y", nodes));
+    cells->z().assign(checkpoint.array("membrane.z", nodes));
+    coupling::LoopMemory memory;
+    memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
+                              checkpoint.array("loop.viscosity_z")};
+    const auto& target = checkpoint.array("loop.target", 3);
+    std::copy(target.begin(), target.end(), memory.target.begin());
+    loop->restore(memory);
+}
+
+std::string describe(const Case& c, const CoupledSystem& s) {
+    const coupling::Numerics& n = s.numerics;
+    const auto& axes = s.fluid->grid().rectilinear().axes;
+    std::string text = fmt::format(
+        "{}\n"
+        "  grid          {} x {} x {} cells, smallest {:.4g} um\n"
+        "  cells         {} of {} nodes, viscosity ratio {:.3g}\n"
+        "  physical      G = {:.4g} 1/s, Ca = G mu R0/K_S = {:.4g}, Re_G = {:.3g}\n"
+        "  chosen        nu/h = {:.3g}, Re_G = {:.3g}, Ma = {:.3g}, kernel and scheme as in the case\n"
+        "  step          G dt = {:.4g} ({} steps of {:.4g} s; limit: {})\n"
+        "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; stress = {:.4g} "
+        "Pa;\n"
+        "                membrane force 1e-11 N = {:.4g} lattice units\n"
+        "  errors        ",
+        c.title, axes[0].cells(), axes[1].cells(), axes[2].cells(), s.fluid->grid().rectilinear().smallest(),
+        s.cells->cells(), s.cells->vertices(), c.cells.front().cytosol_viscosity / c.fluid.viscosity,
+        *c.shear_rate, n.capillary, n.physical_reynolds, n.lattice_viscosity, n.reynolds, n.mach,
+        n.step_strain, s.plan.steps, n.step_seconds, n.step_limit, n.velocity_um_per_s, s.scales.time_s(),
+        s.scales.pressure_pa, n.force_factor);
+    for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
+    text += "(estimated)\n  exchanged     ";
+    for (const auto& field : s.loop->fields().list()) text += fmt::format("{} [{}] ", field.name, field.unit);
+    return text;
+}
+
+}  // namespace hemoflux::apps

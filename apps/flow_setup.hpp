@@ -1,0 +1,31 @@
+/// From the fluid part of a case to patches and scales of the fluid solver.
+#pragma once
+
+#include "apps/case.hpp"
+#include "fluid/solver.hpp"
+
+namespace hemoflux::apps {
+
+/// What one lattice unit is in physical units (length um, density 1, c = 1).
+struct Scales {
+    double velocity_um_per_s = 1;  ///< c
+    double pressure_pa = 1;        ///< rho_0 c^2 as the scaling sees it: lattice stress 1 in Pa
+    double viscosity_pa_s = 1;     ///< of lattice viscosity 1 um c
+    double density = 1000;         ///< kg/m^3 of lattice density 1
+    /// Seconds per lattice time (um / c).
+    [[nodiscard]] double time_s() const { return 1 / velocity_um_per_s; }
+};
+
+/// Patches of the case's boundary in lattice units. rate: lattice shear rate, c/um.
+fluid::Patches make_patches(const Case& c, const Scales& scales, double rate);
+
+/// Start of the flow: at rest, or u = rate y.
+std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate);
+
+/// The solver's scheme.
+fluid::Scheme scheme_of(TimeScheme scheme);
+
+/// Largest |y| of the box, um: where a shear flow about y = 0 is fastest.
+double shear_reach(const meshing::RectilinearGrid& grid);
+
+}  // namespace hemoflux::apps

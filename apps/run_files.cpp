@@ -1,0 +1,145 @@
+#include "apps/run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/output/atomic_file.hpp"
+#include "apps/output/pictures.hpp"
+#include "apps/output/vtk_writer.hpp"
+#include "exchange/backend.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+bool same_folder(const RunOptions& options) {
+    std::error_code error;
+    return !options.restart.empty() && std::filesystem::equivalent(options.restart, options.output, error);
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+    for (double& v : values) v *= factor;
+    return values;
+}
+
+/// The fields the case asks for, in physical units.
+std::vector<output::DataArray> fluid_arrays(const Case& c, const Scales& s, const fluid::Solver& fluid) {
+    const fluid::State& state = fluid.state();
+    const fluid::StateView& v = state.view();
+    const auto field = [&](const double* values, double factor) {
+        return scaled(state.interior(values), factor);
+    };
+    std::vector<output::DataArray> arrays;
+    for (const std::string& name : c.output.fields) {
+        if (name == "velocity") {
+            const double f = s.velocity_um_per_s;
+            arrays.push_back(output::vector_array("velocity_um_per_s", field(v.q[1], f), field(v.q[2], f),
+                                                  field(v.q[3], f)));
+        } else if (name == "density") {
+            arrays.push_back({"density_kg_per_m3", 1, field(v.q[0], s.density)});
+        } else if (name == "viscosity" && v.nu) {
+            arrays.push_back({"viscosity_Pa_s", 1, field(v.nu, s.viscosity_pa_s)});
+        } else if (name == "force" && v.force[0]) {
+            const double f = s.pressure_pa;
+            arrays.push_back(output::vector_array("force_density_Pa_per_um", field(v.force[0], f),
+                                                  field(v.force[1], f), field(v.force[2], f)));
+        }
+    }
+    return arrays;
+}
+
+}  // namespace
+
+RunFiles::RunFiles(const Case& c, const RunOptions& options)
+    : case_(c),
+      folder_(options.output, same_folder(options) ? output::Folder::restart : output::Folder::fresh),
+      log_(folder_.log(), options.quiet, same_folder(options)) {
+    if (!options.restart.empty()) {
+        output::LatestCheckpoint latest = output::latest_checkpoint(options.restart);
+        if (!latest.warning.empty()) log_.warn(latest.warning);
+        latest.checkpoint.require_text("version", HEMOFLUX_VERSION, "the version of hemoflux");
+        latest.checkpoint.require_text("case", c.resolved, "the case");
+        restart_ = std::move(latest.checkpoint);
+        first_step_ = static_cast<long long>(restart_->number("step"));
+        log_.info(fmt::format("continuing from {} (step {})", latest.path.string(), first_step_));
+    }
+    output::write_file(folder_.resolved(), c.resolved);
+}
+
+void RunFiles::start_history(const std::vector<std::string>& columns) {
+    history_.emplace(folder_.history(), columns);
+    if (!restart_) return;
+    const auto& values = restart_->array("history");
+    for (std::size_t i = 0; i + columns.size() <= values.size(); i += columns.size())
+        add_row({values.begin() + static_cast<std::ptrdiff_t>(i),
+                 values.begin() + static_cast<std::ptrdiff_t>(i + columns.size())});
+}
+
+void RunFiles::add_row(const std::vector<double>& row) {
+    history_->add(row);
+    rows_.push_back(row);
+}
+
+void RunFiles::start_series(double position) {
+    if (restart_) {
+        fluid_series_ = output::PvdSeries::resume(folder_.fluid_series(), position + 1e-9);
+        cell_series_ = output::PvdSeries::resume(folder_.cell_series(), position + 1e-9);
+    } else {
+        fluid_series_.emplace(folder_.fluid_series());
+        cell_series_.emplace(folder_.cell_series());
+    }
+}
+
+void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
+                           const membrane::Batch* cells, double position) {
+    const auto fluid_file = folder_.fluid_file(fluid_series_->next());
+    output::write_fluid(fluid_file, fluid.grid().rectilinear().axes, fluid_arrays(c, scales, fluid),
+                        position);
+    fluid_series_->add(position, fluid_file);
+    if (!cells) return;
+    std::vector<meshing::SurfaceMesh> meshes;
+    std::vector<double> fx, fy, fz;
+    for (std::size_t i = 0; i < cells->cells(); ++i) {
+        meshes.push_back({cells->positions(i), cells->topology().triangles()});
+        constexpr double piconewton_per_unit = 10;
+        for (const Vec3d& f : cells->forces(i)) {
+            fx.push_back(f.x * piconewton_per_unit);
+            fy.push_back(f.y * piconewton_per_unit);
+            fz.push_back(f.z * piconewton_per_unit);
+        }
+    }
+    const auto cell_file = folder_.cell_file(cell_series_->next());
+    output::write_cells(cell_file, meshes, {output::vector_array("force_pN", fx, fy, fz)}, position);
+    cell_series_->add(position, cell_file);
+}
+
+void RunFiles::write_checkpoint(output::Checkpoint checkpoint, long long step) {
+    checkpoint.put_text("version", HEMOFLUX_VERSION);
+    checkpoint.put_text("case", case_.resolved);
+    checkpoint.put_number("step", static_cast<double>(step));
+    std::vector<double> history;
+    for (const auto& row : rows_) history.insert(history.end(), row.begin(), row.end());
+    checkpoint.put("history", std::move(history));
+    output::write_rotating(folder_.path(), step, checkpoint);
+}
+
+output::Summary start_summary(const Case& c) {
+    output::Summary summary;
+    summary.case_name = c.title;
+    summary.version = HEMOFLUX_VERSION;
+    summary.backend = exchange::backend_name();
+    summary.threads = exchange::threads();
+    for (const ReferenceInput& r : c.references)
+        summary.references[r.observable] = {r.value, r.low, r.high, r.source};
+    return summary;
+}
+
+void draw_pictures(const Case& c, const RunFiles& files) {
+    if (!c.output.pictures) return;
+    const output::Pictures pictures = output::make_pictures(files.folder().path());
+    if (!pictures.message.empty()) files.log().warn(pictures.message);
+}
+
+}  // namespace hemoflux::apps

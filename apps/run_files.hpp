@@ -1,0 +1,70 @@
+/// What a flow run keeps open while it goes on: folder, log, history and the series for ParaView.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/case.hpp"
+#include "apps/flow_setup.hpp"
+#include "apps/output/checkpoint.hpp"
+#include "apps/output/folder.hpp"
+#include "apps/output/history.hpp"
+#include "apps/output/log.hpp"
+#include "apps/output/pvd_series.hpp"
+#include "apps/output/summary.hpp"
+#include "apps/run.hpp"
+#include "fluid/solver.hpp"
+#include "membrane/batch.hpp"
+
+namespace hemoflux::apps {
+
+/// Files of one run. Rows of the history are kept in memory too, so that a checkpoint holds them.
+class RunFiles {
+  public:
+    /// Makes or continues the output folder and reads the checkpoint to restart from. FileError, InputError
+    /// (the checkpoint is of another version or another case).
+    RunFiles(const Case& c, const RunOptions& options);
+
+    /// The checkpoint this run continues from, if any.
+    [[nodiscard]] const std::optional<output::Checkpoint>& restart() const { return restart_; }
+    /// Steps already done.
+    [[nodiscard]] long long first_step() const { return first_step_; }
+
+    /// Starts history.csv with these columns ("step" first); after a restart with the rows of the checkpoint.
+    void start_history(const std::vector<std::string>& columns);
+    void add_row(const std::vector<double>& row);
+
+    /// Opens the series, without the frames later than `position`.
+    void start_series(double position);
+    /// Writes the fluid and the cells (if any) as the next frame.
+    void write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
+                     const membrane::Batch* cells, double position);
+
+    /// Writes a checkpoint with version, case, step and history added.
+    void write_checkpoint(output::Checkpoint checkpoint, long long step);
+
+    [[nodiscard]] const output::OutputFolder& folder() const { return folder_; }
+    [[nodiscard]] const output::Log& log() const { return log_; }
+    /// Rows of history.csv.
+    [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
+
+  private:
+    const Case& case_;
+    output::OutputFolder folder_;
+    output::Log log_;
+    std::optional<output::Checkpoint> restart_;
+    long long first_step_ = 0;
+    std::optional<output::History> history_;
+    std::vector<std::vector<double>> rows_;
+    std::optional<output::PvdSeries> fluid_series_, cell_series_;
+};
+
+/// A summary with case, version, backend, threads and references filled in.
+output::Summary start_summary(const Case& c);
+
+/// Pictures of the frames and the log line if there are none; never fails.
+void draw_pictures(const Case& c, const RunFiles& files);
+
+}  // namespace hemoflux::apps

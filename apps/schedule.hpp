@@ -1,0 +1,29 @@
+/// When things happen in a run: numbers of steps, and events at equal intervals of strain or time.
+#pragma once
+
+#include <cmath>
+
+namespace hemoflux::apps {
+
+/// A run from 0 to `end` in equal steps: the wished step, shortened so that a whole number of steps fits.
+struct StepPlan {
+    long long steps = 0;
+    double step = 0;
+    StepPlan(double end, double wished) {
+        steps = static_cast<long long>(std::ceil(end / wished - 1e-9));
+        if (steps < 1) steps = 1;
+        step = end / static_cast<double>(steps);
+    }
+    /// Position after `done` steps.
+    [[nodiscard]] double at(long long done) const { return step * static_cast<double>(done); }
+};
+
+/// True when a multiple of `interval` is reached by the step that ends at step number `done`; depends on the
+/// step number only, so that a restarted run does the same. Never for interval <= 0.
+inline bool due(const StepPlan& plan, long long done, double interval) {
+    if (!(interval > 0)) return false;
+    const auto events = [&](long long n) { return std::floor(plan.at(n) / interval + 1e-6); };
+    return events(done) > events(done - 1);
+}
+
+}  // namespace hemoflux::apps
