@@ -5,8 +5,8 @@
 /// with p_i = R_i - m. Its eigenvectors are the principal axes.
 ///
 /// Equivalent ellipsoid: half-axes a, b, c whose own surface has these principal moments,
-///   G_i = a_i^2 int n_i^2 w dOmega / int w dOmega,  w = (b^2 c^2 n_x^2 + a^2 c^2 n_y^2 + a^2 b^2
-///   n_z^2)^{1/2}
+///   G_i = a_i^2 int n_i^2 w dOmega / int w dOmega,
+///   w = (b^2 c^2 n_x^2 + a^2 c^2 n_y^2 + a^2 b^2 n_z^2)^{1/2}
 /// over the unit sphere. Taylor's deformation is D = (longest - shortest)/(longest + shortest).
 #pragma once
 
