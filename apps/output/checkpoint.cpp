@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <boost/crc.hpp>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <regex>
 
 #include "apps/output/atomic_file.hpp"
 #include "exchange/error.hpp"
@@ -106,16 +106,24 @@ const auto& get(const Map& map, const std::string& name) {
     return it->second;
 }
 
+/// The step in the name of a checkpoint file; nothing for another name.
+std::optional<long long> step_of(const std::string& name) {
+    constexpr std::string_view begin = "checkpoint_", end = ".bin";
+    if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end))
+        return {};
+    long long step = 0;
+    const char* last = name.data() + name.size() - end.size();
+    const auto [stop, error] = std::from_chars(name.data() + begin.size(), last, step);
+    return error == std::errc() && stop == last ? std::optional(step) : std::nullopt;
+}
+
 /// Checkpoints of a folder, newest first; the step is padded, but compared as a number all the same.
 std::vector<fs::path> list(const fs::path& folder) {
-    static const std::regex pattern(R"(checkpoint_(\d{1,18})\.bin)");
     std::vector<std::pair<long long, fs::path>> found;
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-        const std::string name = entry.path().filename().string();
-        std::smatch match;
-        if (std::regex_match(name, match, pattern)) found.emplace_back(std::stoll(match[1]), entry.path());
-    }
+    for (const auto& entry : fs::directory_iterator(folder, error))
+        if (const auto step = step_of(entry.path().filename().string()))
+            found.emplace_back(*step, entry.path());
     std::sort(found.rbegin(), found.rend());
     std::vector<fs::path> paths;
     for (auto& [step, path] : found) paths.push_back(std::move(path));

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <regex>
+#include <algorithm>
+#include <iterator>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -50,11 +52,21 @@ void remove_run(const fs::path& path) {
 }  // namespace
 
 bool is_run_file(const std::string& name) {
-    static const std::regex pattern(
-        R"(resolved\.toml|summary\.json|history\.csv|stretch\.csv|log\.txt|)"
-        R"((fluid|cells)(\.pvd|_\d+\.vt[rup])|checkpoint_\d+\.bin|last_good_\d+\.vt[rup]|)"
-        R"((picture|plot)_[A-Za-z0-9_]+\.(png|svg)|\..+\.tmp)");
-    return std::regex_match(name, pattern);
+    constexpr std::string_view fixed[] = {"resolved.toml", "summary.json", "history.csv", "stretch.csv",
+                                          "log.txt",       "fluid.pvd",    "cells.pvd"};
+    if (std::find(std::begin(fixed), std::end(fixed), name) != std::end(fixed)) return true;
+    if (name.starts_with('.') && name.ends_with(".tmp")) return true;
+
+    const auto dot = name.rfind('.'), bar = name.rfind('_');
+    if (dot == std::string::npos || bar == std::string::npos || bar + 1 >= dot) return false;
+    const std::string kind = name.substr(0, bar), end = name.substr(dot);
+    const bool numbered = std::all_of(name.begin() + static_cast<std::ptrdiff_t>(bar) + 1,
+                                      name.begin() + static_cast<std::ptrdiff_t>(dot),
+                                      [](char c) { return c >= '0' && c <= '9'; });
+    if (numbered && kind == "checkpoint") return end == ".bin";
+    if (numbered && (kind == "fluid" || kind == "cells" || kind == "last_good"))
+        return end == ".vtr" || end == ".vtp";
+    return (name.starts_with("picture_") || name.starts_with("plot_")) && (end == ".png" || end == ".svg");
 }
 
 OutputFolder::OutputFolder(fs::path path, Folder mode) : path_(std::move(path)) {
