@@ -96,6 +96,9 @@ Reference uniform_length_reference(const Topology& topology, const std::vector<V
     Reference r = reference_from_shape(topology, disc);
     r.edge_lengths.assign(r.edge_lengths.size(),
                           length == 0 ? uniform_length_ratio * mean_edge(topology, disc) : length);
+    double total = 0;
+    for (const double a : r.triangle_areas) total += a;
+    r.triangle_areas.assign(r.triangle_areas.size(), total / static_cast<double>(r.triangle_areas.size()));
     return r;
 }
 

@@ -45,7 +45,9 @@ inline constexpr double uniform_length_ratio = 1.16;
 double mean_edge(const Topology& topology, const std::vector<Vec3d>& positions);
 
 /// As reference_from_shape of a relaxed disc, but with the same L_0 on every edge: `length` um, or 1.16 times
-/// the disc's mean_edge() when length is 0 (Table 6.2).
+/// the disc's mean_edge() when length is 0 (Table 6.2), and the same A_k0 on every triangle, the disc's mean.
+/// Table 6.2 gives no A_k0. Those of the disc would remember which part of the membrane was the rim, so that a
+/// tank-treading cell swings; equal ones go with equal lengths and leave almost no shape memory.
 Reference uniform_length_reference(const Topology& topology, const std::vector<Vec3d>& disc,
                                    double length = 0);
 

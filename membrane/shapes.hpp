@@ -16,7 +16,7 @@ namespace hemoflux::membrane {
 enum class ReferenceKind {
     spheroid,        ///< oblate spheroid of the area and 0.95 of the volume of the sphere
     stress_free,     ///< its own relaxed disc (Table 6.1)
-    uniform_length,  ///< one length for all springs (Table 6.2), areas of the relaxed disc
+    uniform_length,  ///< one length for all springs and one area for all triangles (Table 6.2)
 };
 
 /// The way to the minimum; both end in the same disc.
