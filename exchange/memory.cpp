@@ -13,10 +13,6 @@
 #endif
 
 namespace hemoflux::exchange {
-namespace {
-constexpr std::size_t alignment = 64;
-}
-
 #if defined(HEMOFLUX_BACKEND_CUDA)
 void* allocate(std::size_t bytes) {
     if (bytes == 0) return nullptr;
@@ -28,6 +24,10 @@ void release(void* device) noexcept {
     if (device) thrust::device_free(thrust::device_ptr<char>(static_cast<char*>(device)));
 }
 #else
+namespace {
+constexpr std::size_t alignment = 64;
+}
+
 void* allocate(std::size_t bytes) {
     if (bytes == 0) return nullptr;
     void* p = ::operator new(bytes, std::align_val_t(alignment));
