@@ -50,7 +50,8 @@ struct Balance {
                 (xl.c[c] - xr.c[c]) * inv_dx + (yl.c[c] - yr.c[c]) * inv_dy + (zl.c[c] - zr.c[c]) * inv_dz;
             if constexpr (F::force) {
                 if (c > 0) {
-                    Value f = exchange::load<Value>(state.force[c - 1] + at);
+                    Value f =
+                        exchange::load<Value>(state.force[c - 1] + at) + parameters.uniform_force[c - 1];
                     if constexpr (F::preconditioned) f = f * inv_gamma;
                     r = r + f;
                 }

@@ -92,7 +92,8 @@ struct FaceLoader {
             for (int c = 0; c < 3; ++c) {
                 const double* f = state.force[component[c]];
                 force[c] = face.weight_left * exchange::load<Value>(f + at) +
-                           (1.0 - face.weight_left) * exchange::load<Value>(f + right_at);
+                           (1.0 - face.weight_left) * exchange::load<Value>(f + right_at) +
+                           parameters.uniform_force[component[c]];
                 if constexpr (F::preconditioned) force[c] = force[c] * inv_gamma;
             }
         }

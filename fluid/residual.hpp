@@ -13,9 +13,10 @@ namespace hemoflux::fluid {
 
 /// What the residual needs besides geometry and state.
 struct FlowParameters {
-    double nu = 0;            ///< kinematic viscosity where the state has no viscosity field (length c)
-    double gamma = 1;         ///< preconditioning parameter of (4.2); 1: none
-    bool with_force = false;  ///< the state's body force acts, with the balanced impulse on faces
+    double nu = 0;     ///< kinematic viscosity where the state has no viscosity field (length c)
+    double gamma = 1;  ///< preconditioning parameter of (4.2); 1: none
+    double uniform_force[3] = {0, 0, 0};  ///< body force per volume everywhere, acts if with_force
+    bool with_force = false;  ///< the state's body force acts as well, with the balanced impulse on faces
     bool with_viscosity =
         false;  ///< the state's viscosity field is used; on faces the arithmetic mean of both cells
 };

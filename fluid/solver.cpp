@@ -59,7 +59,8 @@ Vec3d Solver::centre(std::size_t cell) const {
 }
 
 FlowParameters Solver::flow_parameters() const {
-    return {options_.nu, options_.gamma, options_.with_force, options_.with_viscosity};
+    const auto& f = options_.uniform_force;
+    return {options_.nu, options_.gamma, {f[0], f[1], f[2]}, options_.with_force, options_.with_viscosity};
 }
 
 ResidualView Solver::residual_view(const State& fields) const {

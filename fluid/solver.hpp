@@ -18,12 +18,13 @@ namespace hemoflux::fluid {
 
 /// Choices of a run that do not change during it.
 struct SolverOptions {
-    double nu = 0;                ///< kinematic viscosity (of the suspending fluid, where it varies)
-    double largest_nu = 0;        ///< largest viscosity that will occur; 0: nu
-    bool with_viscosity = false;  ///< viscosity varies in space
-    bool with_force = false;      ///< a body force acts
-    double gamma = 1;             ///< preconditioning parameter (4.2); other than 1 only for steady flow
-    double tau_floor = 0;         ///< smallest tau - 1/2 on any face; 0: no floor
+    double nu = 0;                        ///< kinematic viscosity (of the suspending fluid, where it varies)
+    double largest_nu = 0;                ///< largest viscosity that will occur; 0: nu
+    bool with_viscosity = false;          ///< viscosity varies in space
+    bool with_force = false;              ///< a body force acts
+    double uniform_force[3] = {0, 0, 0};  ///< body force per volume everywhere, added to the field
+    double gamma = 1;      ///< preconditioning parameter (4.2); other than 1 only for steady flow
+    double tau_floor = 0;  ///< smallest tau - 1/2 on any face; 0: no floor
     Scheme scheme = Scheme::rk4;
 };
 

@@ -47,7 +47,7 @@ struct Trial {
           boundary(patches, grid),
           state(grid.view().layout, c.force, c.viscosity, 0.1),
           out(grid.view().layout, false, false, 0),
-          parameters{0.1, c.gamma, c.force, c.viscosity} {
+          parameters{0.1, c.gamma, {0.01, -0.02, 0.03}, c.force, c.viscosity} {
         std::mt19937 random(7);
         std::uniform_real_distribution<double> noise(-0.05, 0.05);
         const auto values = [&](double mean, double scale) {
