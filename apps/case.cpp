@@ -197,8 +197,7 @@ Case finish(toml::table values, const std::string& name, const std::filesystem::
             component /= length;
         }
     }
-    c.resolved =
-        "# The case as it was run, with every default filled in.\n" + to_toml(case_schema(), resolved);
+    c.resolved = "# The case with every default filled in.\n" + to_toml(case_schema(), resolved);
     return c;
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "apps/interrupt.hpp"
 #include "apps/output/plot.hpp"
@@ -29,14 +30,14 @@ std::vector<std::string> history_columns(std::size_t cells) {
 class CoupledRun {
   public:
     CoupledRun(const Case& c, const RunOptions& options)
-        : case_(c), options_(options), files_(c, options), system_(c), observer_(*system_.cells) {}
+        : case_(c), options_(options), system_(c), files_(c, options) {}
 
     int go() {
         const auto start = std::chrono::steady_clock::now();
         begin();
         int code = static_cast<int>(Exit::done);
         try {
-            code = march();
+            code = watched(files_.log(), [this] { return march(); });
         } catch (const NumericalError&) {
             keep_last_good_state();
             throw;
@@ -48,10 +49,14 @@ class CoupledRun {
 
   private:
     void begin() {
+        files_.log().info(fmt::format("{}: preparing the cells", case_.title));
+        system_.add_cells(case_);
+        observer_.emplace(*system_.cells);
+        catch_interrupts();
         files_.log().info(describe(case_, system_));
         if (files_.restart()) {
             system_.load(*files_.restart());
-            observer_.load(*files_.restart());
+            observer_->load(*files_.restart());
             evaluations_before_ = files_.restart()->number("evaluations");
             first_density_ = files_.restart()->number("first_density");
         } else {
@@ -63,6 +68,11 @@ class CoupledRun {
         if (!files_.restart()) {
             record();
             frame();
+        }
+        if (files_.moved()) {
+            system_.cells->compute_forces();
+            frame();
+            files_.write_checkpoint(checkpoint(), done_);
         }
         good_ = checkpoint();
         good_step_ = done_;
@@ -95,7 +105,7 @@ class CoupledRun {
     void record() {
         const double strain = system_.plan.at(done_);
         std::vector<double> row{static_cast<double>(done_), strain / *case_.shear_rate, strain};
-        const auto cells = observer_.observe(*system_.cells, strain);
+        const auto cells = observer_->observe(*system_.cells, strain);
         row.insert(row.end(), cells.begin(), cells.end());
         row.insert(row.end(), {system_.fluid->mean_density(), system_.fluid->residual_norm().density,
                                system_.numerics.step_seconds});
@@ -123,7 +133,7 @@ class CoupledRun {
     [[nodiscard]] output::Checkpoint checkpoint() const {
         output::Checkpoint cp;
         system_.save(cp);
-        observer_.save(cp);
+        observer_->save(cp);
         cp.put_number("evaluations", evaluations());
         cp.put_number("first_density", first_density_);
         return cp;
@@ -143,12 +153,12 @@ class CoupledRun {
         const double strain = system_.plan.at(done_);
         output::Summary s = start_summary(case_);
         const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
-        s.observables = observer_.observables(window[0], window[1]);
+        s.observables = observer_->observables(window[0], window[1]);
         s.observables["strain"] = strain;
-        s.conservation.volume = observer_.volume_error();
-        s.conservation.area = observer_.area_error();
+        s.conservation.volume = observer_->volume_error();
+        s.conservation.area = observer_->area_error();
         s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;
-        s.conservation.centroid_um = observer_.centroid_distance();
+        s.conservation.centroid_um = observer_->centroid_distance();
         const double here = strain - system_.plan.at(files_.first_step());
         s.performance.wall_s = wall_s_;
         s.performance.cpu_s = output::cpu_seconds();
@@ -173,8 +183,8 @@ class CoupledRun {
             .title = case_.title, .x_label = "strain G t", .y_label = "inclination / degrees", .curves = {}};
         for (std::size_t c = 0; c < system_.cells->cells(); ++c)
             spec.curves.push_back({.label = fmt::format("cell {}", c),
-                                   .x = observer_.strains(),
-                                   .y = observer_.inclinations(c)});
+                                   .x = observer_->strains(),
+                                   .y = observer_->inclinations(c)});
         for (const ReferenceInput& r : case_.references)
             if (r.observable == "inclination_deg" && r.low && r.high)
                 spec.bands.push_back({"reference", *r.low, *r.high});
@@ -184,9 +194,9 @@ class CoupledRun {
 
     const Case& case_;
     const RunOptions& options_;
+    CoupledSystem system_;  // before the files: a case that it refuses leaves nothing behind
     RunFiles files_;
-    CoupledSystem system_;
-    CellObserver observer_;
+    std::optional<CellObserver> observer_;
     long long done_ = 0, good_step_ = 0;
     output::Checkpoint good_;
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;
@@ -195,7 +205,6 @@ class CoupledRun {
 }  // namespace
 
 int run_coupled(const Case& c, const RunOptions& options) {
-    catch_interrupts();
     if (options.threads > 0) exchange::set_threads(options.threads);
     return CoupledRun(c, options).go();
 }

@@ -18,10 +18,13 @@ namespace hemoflux::apps {
 /// The solvers of a coupled case, set up at t = 0.
 class CoupledSystem {
   public:
-    /// Builds grid, cells and fluid. Throws InputError, NumericalError (a relaxation failed), FileError.
+    /// Checks the case, chooses the numbers and builds the fluid. Throws InputError.
     explicit CoupledSystem(const Case& c);
+    /// Relaxes the cells, which may take a while, and couples them to the fluid. Throws NumericalError
+    /// (a relaxation failed), FileError.
+    void add_cells(const Case& c);
 
-    /// State for a checkpoint, and back.
+    /// State for a checkpoint, and back; cells must have been added.
     void save(output::Checkpoint& checkpoint) const;
     void load(const output::Checkpoint& checkpoint);
 

@@ -37,7 +37,7 @@ void check_same_kind(const std::vector<CellInput>& cells) {
             throw InputError(
                 fmt::format("[[cell]] number {}", i),
                 "cells of one run share mesh, shape, reference and moduli, and it differs from the first",
-                "let it differ in position, axis and cytosol_viscosity only");
+                "Let it differ in position, axis and cytosol_viscosity only");
     }
 }
 
@@ -45,24 +45,23 @@ void check_supported(const Case& c) {
     if (!c.shear_rate)
         throw InputError("[shear] rate",
                          "a coupled run takes its clock, the strain, from the shear rate and none is given",
-                         "give a rate");
+                         "Give a rate");
     if (c.acceleration != Triple{})
         throw InputError("[body_force]", "in a coupled run the force field belongs to the membranes",
-                         "drive the flow by its boundaries, or use kind = \"fluid\"");
+                         "Drive the flow by its boundaries, or use kind = \"fluid\"");
     if (c.numerics.gamma != 1)
         throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma),
                          "preconditioning changes the path in time, and a coupled run is unsteady",
-                         "set it to 1");
+                         "Set it to 1");
     for (const CellInput& cell : c.cells)
         if (cell.membrane_viscosity != 0)
             throw InputError(
                 "cell.membrane_viscosity",
                 "the explicit membrane viscosity (6.40) is unstable in a viscous fluid at any step",
-                "leave it out or set it to 0 in coupled runs");
+                "Leave it out or set it to 0 in coupled runs");
 }
 
 std::unique_ptr<membrane::Batch> make_cells(const Case& c) {
-    check_same_kind(c.cells);
     const membrane::Cell cell = build_cell(c.cells.front());
     auto batch =
         std::make_unique<membrane::Batch>(cell.topology, cell.parameters, cell.reference, c.cells.size());
@@ -143,8 +142,13 @@ CoupledSystem::CoupledSystem(const Case& c)
     numerics.step_seconds = plan.step / *c.shear_rate;
     scales = {numerics.velocity_um_per_s, c.fluid.viscosity * *c.shear_rate / (numerics.nu * numerics.rate),
               c.fluid.viscosity / numerics.nu, c.fluid.density};
-    cells = make_cells(c);
+    check_same_kind(c.cells);
     fluid = make_fluid(c, grid, numerics, scales);
+    static_cast<void>(coupling::CellGrid(grid, fluid->grid().periodic()));  // refuses too few cells
+}
+
+void CoupledSystem::add_cells(const Case& c) {
+    cells = make_cells(c);
     loop = make_loop(c, numerics, *fluid, *cells);
 }
 

@@ -1,9 +1,11 @@
 // The program `hemoflux`.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "apps/commands.hpp"
 #include "apps/output/pictures.hpp"
@@ -11,6 +13,38 @@
 #include "exchange/error.hpp"
 
 namespace {
+
+/// Names of the subcommands of a command, as words.
+std::string subcommands(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::App* each : command.get_subcommands({})) names.push_back(each->get_name());
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The message for a command line that cannot be read, in the form of all messages.
+std::string usage_error(const CLI::App& program, const CLI::Error& error,
+                        const std::vector<std::string>& words) {
+    const CLI::App* command = &program;
+    std::string path = "hemoflux", what = error.what(), why = "the command line cannot be understood";
+    for (const std::string& word : words) {
+        if (command->get_subcommands({}).empty() || word.starts_with('-')) break;
+        const auto found =
+            command->get_subcommands([&](const CLI::App* each) { return each->get_name() == word; });
+        const CLI::App* next = found.empty() ? nullptr : found.front();
+        if (!next) {
+            what = fmt::format("\"{}\" is not a command", word);
+            why = fmt::format("{} has {}", path, subcommands(*command));
+            return fmt::format("error: {}: {}. See {} --help.\n", what, why, path);
+        }
+        command = next;
+        path += " " + word;
+    }
+    if (!command->get_subcommands({}).empty() && command->get_subcommands().empty()) {
+        what = "no command is given";
+        why = fmt::format("{} needs one of {}", path, subcommands(*command));
+    }
+    return fmt::format("error: {}: {}. See {} --help.\n", what, why, path);
+}
 
 int run_program(int argc, char** argv) {
     CLI::App program(
@@ -32,8 +66,9 @@ int run_program(int argc, char** argv) {
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const bool asked = program.exit(error) == 0;  // --help and --version arrive here too
-        return static_cast<int>(asked ? hemoflux::Exit::done : hemoflux::Exit::bad_input);
+        if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version arrive here too
+        fmt::print(stderr, "{}", usage_error(program, error, {argv + 1, argv + argc}));
+        return static_cast<int>(hemoflux::Exit::bad_input);
     }
     return code;
 }

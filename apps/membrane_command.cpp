@@ -38,6 +38,7 @@ Case case_of(const Arguments& in) {
 int run(Arguments& in) {
     const Case c = case_of(in);
     check_case(c);
+    check_run(c);
     if (in.check) {
         fmt::print("{}\n# The case can be run.\n", c.resolved);
         return static_cast<int>(Exit::done);

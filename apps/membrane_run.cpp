@@ -118,11 +118,18 @@ Curves stretch(const MembraneInput& in, const membrane::RelaxOptions& options, m
 
 }  // namespace
 
+void check_experiment(const MembraneInput& in) {
+    if (in.experiment.empty()) return;
+    const output::Table table = output::read_table(in.experiment);
+    for (const char* column : {"F_pN", "DA_um", "DT_um"}) static_cast<void>(table.column(column));
+}
+
 int run_membrane(const Case& c, const RunOptions& options) {
     if (!options.restart.empty()) {
         throw InputError("--restart with a case of kind \"membrane\"",
                          "a static computation has no checkpoints", "Run it anew, it takes seconds");
     }
+    check_experiment(c.membrane);
     const auto start = std::chrono::steady_clock::now();
     if (options.threads > 0) {
         exchange::set_threads(options.threads);

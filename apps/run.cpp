@@ -2,8 +2,23 @@
 
 #include "apps/coupled_run.hpp"
 #include "apps/fluid_run.hpp"
+#include "apps/fluid_system.hpp"
 
 namespace hemoflux::apps {
+
+void check_run(const Case& c) {
+    switch (c.kind) {
+        case CaseKind::coupled:
+            static_cast<void>(CoupledSystem(c));
+            return;
+        case CaseKind::fluid:
+            static_cast<void>(FluidSystem(c));
+            return;
+        case CaseKind::membrane:
+            check_experiment(c.membrane);
+            return;
+    }
+}
 
 int run_case(const Case& c, const RunOptions& options) {
     return c.kind == CaseKind::coupled ? run_coupled(c, options) : run_fluid(c, options);

@@ -18,6 +18,13 @@ struct RunOptions {
     std::vector<std::string> sets;  ///< overrides as typed, for the log
 };
 
+/// Refuses, before anything is written, what check_case() does not see: numbers and conditions that the
+/// solvers do not take, measurements that cannot be read. Throws InputError, FileError.
+void check_run(const Case& c);
+
+/// Refuses measurements to compare with that cannot be read or lack a column. Throws InputError, FileError.
+void check_experiment(const MembraneInput& in);
+
 /// Runs a case of kind coupled or fluid that check_case() has passed and writes its output folder. Returns
 /// the exit code. Throws InputError, NumericalError, FileError.
 int run_case(const Case& c, const RunOptions& options);

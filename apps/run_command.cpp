@@ -40,6 +40,7 @@ int run(Arguments& arguments) {
         fmt::print(stderr, "warning: {}.\n", warning);
     }
     if (arguments.check) {
+        check_run(c);
         fmt::print("{}\n# The case can be run.\n", c.resolved);
         return static_cast<int>(Exit::done);
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "apps/output/atomic_file.hpp"
 #include "apps/output/pictures.hpp"
@@ -50,28 +51,62 @@ std::vector<output::DataArray> fluid_arrays(const Case& c, const Scales& s, cons
     return arrays;
 }
 
+/// Lines of a resolved case, each with the table it stands in.
+std::vector<std::string> lines_of(const std::string& resolved) {
+    std::istringstream text(resolved);
+    std::vector<std::string> lines;
+    std::string table;
+    for (std::string line; std::getline(text, line);) {
+        if (line.empty()) continue;
+        if (line.front() == '[') table = line + " ";
+        lines.push_back(line.front() == '[' ? line : table + line);
+    }
+    return lines;
+}
+
+void require_same_case(const std::string& stored, const std::string& now) {
+    const auto before = lines_of(stored), after = lines_of(now);
+    const auto line = [](const std::vector<std::string>& lines, std::size_t i) {
+        return i < lines.size() ? lines[i] : std::string("nothing more");
+    };
+    for (std::size_t i = 0; i < std::max(before.size(), after.size()); ++i)
+        if (line(before, i) != line(after, i))
+            throw InputError(
+                "the checkpoint is of another case",
+                fmt::format("it was written with {}, and the case now has {}", line(before, i),
+                            line(after, i)),
+                "Continue with the case unchanged (hemoflux run --restart DIR without a case and "
+                "--set), or start anew without --restart");
+}
+
+std::optional<output::LatestCheckpoint> checkpoint_to_continue(const Case& c, const RunOptions& options) {
+    if (options.restart.empty()) return {};
+    output::LatestCheckpoint latest = output::latest_checkpoint(options.restart);
+    latest.checkpoint.require_text("version", HEMOFLUX_VERSION, "the version of hemoflux");
+    require_same_case(latest.checkpoint.text("case"), c.resolved);
+    return latest;
+}
+
 }  // namespace
 
 RunFiles::RunFiles(const Case& c, const RunOptions& options)
     : case_(c),
+      continued_(checkpoint_to_continue(c, options)),
       folder_(options.output, same_folder(options) ? output::Folder::restart : output::Folder::fresh),
       log_(folder_.log(), options.quiet, same_folder(options)) {
-    if (!options.restart.empty()) {
-        output::LatestCheckpoint latest = output::latest_checkpoint(options.restart);
-        if (!latest.warning.empty()) log_.warn(latest.warning);
-        latest.checkpoint.require_text("version", HEMOFLUX_VERSION, "the version of hemoflux");
-        latest.checkpoint.require_text("case", c.resolved, "the case");
-        restart_ = std::move(latest.checkpoint);
-        first_step_ = static_cast<long long>(restart_->number("step"));
-        log_.info(fmt::format("continuing from {} (step {})", latest.path.string(), first_step_));
+    if (continued_) {
+        if (!continued_->warning.empty()) log_.warn(continued_->warning);
+        moved_ = !same_folder(options);
+        first_step_ = static_cast<long long>(restart()->number("step"));
+        log_.info(fmt::format("continuing from {} (step {})", continued_->path.string(), first_step_));
     }
     output::write_file(folder_.resolved(), c.resolved);
 }
 
 void RunFiles::start_history(const std::vector<std::string>& columns) {
     history_.emplace(folder_.history(), columns);
-    if (!restart_) return;
-    const auto& values = restart_->array("history");
+    if (!continued_) return;
+    const auto& values = restart()->array("history");
     for (std::size_t i = 0; i + columns.size() <= values.size(); i += columns.size())
         add_row({values.begin() + static_cast<std::ptrdiff_t>(i),
                  values.begin() + static_cast<std::ptrdiff_t>(i + columns.size())});
@@ -83,7 +118,7 @@ void RunFiles::add_row(const std::vector<double>& row) {
 }
 
 void RunFiles::start_series(double position) {
-    if (restart_) {
+    if (continued_) {
         fluid_series_ = output::PvdSeries::resume(folder_.fluid_series(), position + 1e-9);
         cell_series_ = output::PvdSeries::resume(folder_.cell_series(), position + 1e-9);
     } else {
@@ -120,7 +155,8 @@ void RunFiles::write_checkpoint(output::Checkpoint checkpoint, long long step) {
     checkpoint.put_text("case", case_.resolved);
     checkpoint.put_number("step", static_cast<double>(step));
     std::vector<double> history;
-    for (const auto& row : rows_) history.insert(history.end(), row.begin(), row.end());
+    for (const auto& row : rows_)
+        if (row.front() <= static_cast<double>(step)) history.insert(history.end(), row.begin(), row.end());
     checkpoint.put("history", std::move(history));
     output::write_rotating(folder_.path(), step, checkpoint);
 }

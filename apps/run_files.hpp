@@ -15,6 +15,7 @@
 #include "apps/output/pvd_series.hpp"
 #include "apps/output/summary.hpp"
 #include "apps/run.hpp"
+#include "exchange/error.hpp"
 #include "fluid/solver.hpp"
 #include "membrane/batch.hpp"
 
@@ -27,8 +28,12 @@ class RunFiles {
     /// (the checkpoint is of another version or another case).
     RunFiles(const Case& c, const RunOptions& options);
 
-    /// The checkpoint this run continues from, if any.
-    [[nodiscard]] const std::optional<output::Checkpoint>& restart() const { return restart_; }
+    /// The checkpoint this run continues from; null for a run from the start.
+    [[nodiscard]] const output::Checkpoint* restart() const {
+        return continued_ ? &continued_->checkpoint : nullptr;
+    }
+    /// Whether it continues a run of another folder, of which this one holds nothing yet.
+    [[nodiscard]] bool moved() const { return moved_; }
     /// Steps already done.
     [[nodiscard]] long long first_step() const { return first_step_; }
 
@@ -42,7 +47,7 @@ class RunFiles {
     void write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
                      const membrane::Batch* cells, double position);
 
-    /// Writes a checkpoint with version, case, step and history added.
+    /// Writes a checkpoint with version, case, step and the history up to this step added.
     void write_checkpoint(output::Checkpoint checkpoint, long long step);
 
     [[nodiscard]] const output::OutputFolder& folder() const { return folder_; }
@@ -52,14 +57,26 @@ class RunFiles {
 
   private:
     const Case& case_;
+    std::optional<output::LatestCheckpoint> continued_;  // before the folder: a refused one changes nothing
     output::OutputFolder folder_;
     output::Log log_;
-    std::optional<output::Checkpoint> restart_;
+    bool moved_ = false;
     long long first_step_ = 0;
     std::optional<output::History> history_;
     std::vector<std::vector<double>> rows_;
     std::optional<output::PvdSeries> fluid_series_, cell_series_;
 };
+
+/// Calls `march` and notes in the log file the error that ends it; main() prints it.
+template <class March>
+int watched(const output::Log& log, const March& march) {
+    try {
+        return march();
+    } catch (const Error& error) {
+        log.detail(error.what());
+        throw;
+    }
+}
 
 /// A summary with case, version, backend, threads and references filled in.
 output::Summary start_summary(const Case& c);

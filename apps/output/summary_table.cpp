@@ -33,11 +33,11 @@ void add(std::string& text, const char* name, double value, const char* format) 
 void add_references(std::string& text, const Summary& summary) {
     const auto comparisons = compare(summary);
     if (comparisons.empty()) return;
-    text += fmt::format("Against references\n  {:<34}{:>12}{:>12}{:>9}  {:<20}{}\n", "", "this run",
+    text += fmt::format("Against references\n  {:<34}{:>12}{:>12}{:>11}  {:<20}{}\n", "", "this run",
                         "reference", "delta", "accepted", "");
     for (const auto& c : comparisons) {
         const auto& reference = c.reference.reference;
-        text += fmt::format("  {:<34}{:>12.6g}{:>12}{:>9}  {:<20}{}\n", c.name, c.value,
+        text += fmt::format("  {:<34}{:>12.6g}{:>12}{:>11}  {:<20}{}\n", c.name, c.value,
                             reference ? fmt::format("{:.6g}", *reference) : "-",
                             c.relative ? fmt::format("{:+.2f} %", 100 * *c.relative) : "-",
                             interval(c.reference), word(c.verdict));

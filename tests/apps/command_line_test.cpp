@@ -1,70 +1,26 @@
 // The built program, as a user meets it: exit codes and messages.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 
 #include "apps/output/history.hpp"
 #include "apps/output/summary.hpp"
-#include "tests/apps/example_case.hpp"
+#include "meshing/icosphere.hpp"
+#include "meshing/surface_io.hpp"
+#include "tests/apps/program.hpp"
 
 namespace hemoflux::apps {
 namespace {
 
-namespace fs = std::filesystem;
-
-class CommandLine : public ::testing::Test {
+class CommandLine : public Program {
   protected:
-    struct Outcome {
-        int code;
-        std::string text;  ///< standard output and error
-    };
-
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() / ("hemoflux_cli_" + std::to_string(getpid()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    /// Runs the program in the scratch folder.
-    Outcome run(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && " HEMOFLUX_PROGRAM " " + arguments + " 2>&1";
-        FILE* pipe = popen(command.c_str(), "r");
-        Outcome outcome{-1, ""};
-        std::array<char, 4096> part;
-        for (std::size_t n = 0; (n = fread(part.data(), 1, part.size(), pipe)) > 0;) {
-            outcome.text.append(part.data(), n);
-        }
-        const int status = pclose(pipe);
-        outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        return outcome;
-    }
-
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-        return name;
-    }
-
-    /// The program ends with `code` and exactly one line "error: ..." that has `part`.
-    void expect_error(const std::string& arguments, int code, const std::string& part) const {
-        const Outcome outcome = run(arguments);
-        EXPECT_EQ(outcome.code, code) << arguments << "\n" << outcome.text;
-        EXPECT_TRUE(outcome.text.starts_with("error: ")) << outcome.text;
-        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
-        EXPECT_NE(outcome.text.find(part), std::string::npos)
-            << "\"" << part << "\" is not in: " << outcome.text;
-    }
+    /// The example case with one change is refused by `run --check`, and by `run`, which leaves nothing.
     void expect_bad(const std::string& from, const std::string& to, const std::string& part) const {
-        expect_error("run --check " + write("case.toml", example_with(from, to)), 2, part);
+        write("case.toml", example_with(from, to));
+        expect_error("run --check case.toml", 2, part);
+        expect_error("run case.toml -o bad", 2, part);
+        EXPECT_FALSE(fs::exists(folder_ / "bad")) << part;
     }
-
-    fs::path folder_;
 };
 
 TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
@@ -79,10 +35,13 @@ TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
 }
 
 TEST_F(CommandLine, WrongCommandsAreBadInput) {
-    EXPECT_EQ(run("").code, 2);
-    EXPECT_EQ(run("rnu case.toml").code, 2);
-    EXPECT_EQ(run("run --no-such-option").code, 2);
-    EXPECT_EQ(run("run").code, 2);
+    expect_error("", 2, "hemoflux needs one of run, mesh, membrane, schema");
+    expect_error("rnu case.toml", 2, "\"rnu\" is not a command");
+    expect_error("mesh rcb", 2, "hemoflux mesh has grid, rbc");
+    expect_error("membrane", 2, "hemoflux membrane needs one of relax, stretch");
+    expect_error("run --no-such-option", 2, "See hemoflux run --help");
+    expect_error("run case.toml --threads -1", 2, "--threads");
+    expect_error("run", 2, "No case is given");
 }
 
 TEST_F(CommandLine, BadCases) {
@@ -98,27 +57,75 @@ TEST_F(CommandLine, BadCases) {
     expect_bad("\"x\" = \"periodic\"", "\"x-\" = \"periodic\"", "no boundary condition");
 }
 
-TEST_F(CommandLine, OpenSurfaceIsBadInput) {
-    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
-    expect_bad("mesh = \"icosphere\"", "file = \"open.obj\"", "open.obj");
+TEST_F(CommandLine, BadSurfaces) {
+    meshing::SurfaceMesh sphere = meshing::icosphere(2, 3.0);  // 162 nodes
+    const meshing::Triangle removed = sphere.triangles.back();
+    sphere.triangles.pop_back();
+    meshing::write_surface((folder_ / "open.vtp").string(), sphere);
+    expect_bad("mesh = \"icosphere\"", "file = \"open.vtp\"", "open.vtp");
+    const std::string text = run("run --check case.toml").text;
+    EXPECT_NE(text.find("edge"), std::string::npos) << text;
+    for (const int vertex : removed) EXPECT_NE(text.find(std::to_string(vertex)), std::string::npos) << text;
+
+    meshing::write_surface((folder_ / "coarse.vtp").string(), meshing::icosphere(0, 3.0));
+    expect_bad("mesh = \"icosphere\"", "file = \"coarse.vtp\"", "42");
+    write("malformed.vtp", "<VTKFile type=\"PolyData\"><PolyData>");
+    expect_bad("mesh = \"icosphere\"", "file = \"malformed.vtp\"", "malformed.vtp");
+}
+
+TEST_F(CommandLine, WhatTheSolversRefuseIsBadInputToo) {
+    expect_bad("axis = [0, 1, 0]", "membrane_viscosity = \"0.1 uPa s m\"", "membrane_viscosity");
+    expect_bad("lattice_viscosity", "gamma = 0.5\nlattice_viscosity", "gamma");
+    expect_bad("[shear]", "[body_force]\nacceleration = [\"1 m/s^2\", \"0 m/s^2\", \"0 m/s^2\"]\n[shear]",
+               "body_force");
+    expect_bad("[coupling]", "[[cell]]\nnodes = 642\nposition = [\"0 um\", \"3 um\", \"0 um\"]\n[coupling]",
+               "[[cell]] number 1");
+    write("still.toml",
+          "title = \"t\"\nkind = \"fluid\"\n[fluid]\nviscosity = \"1 mPa s\"\n[grid]\ncells = [4, 4, 4]\n"
+          "length = [\"1 um\", \"1 um\", \"1 um\"]\n[boundary]\nx = \"periodic\"\ny = \"periodic\"\n"
+          "z = \"periodic\"\n[time]\nduration = \"1 s\"\n");
+    expect_error("run --check still.toml", 2, "nothing will flow");
+    expect_error("run still.toml -o bad", 2, "nothing will flow");
+    EXPECT_FALSE(fs::exists(folder_ / "bad"));
+}
+
+TEST_F(CommandLine, BadInputSparesAnEarlierRun) {
+    ASSERT_EQ(run(small_run + "--set time.strain=0.01 -o out").code, 0);
+    const std::string summary = content("out/summary.json");
+    expect_error(small_run + "--set numerics.gamma=0.5 -o out", 2, "gamma");
+    EXPECT_EQ(content("out/summary.json"), summary);
+    expect_error(small_run + "--set numerics.gama=0.5 -o out", 2, "\"gamma\"");
+    EXPECT_EQ(content("out/summary.json"), summary);
 }
 
 TEST_F(CommandLine, UnreadableFilesHaveTheirOwnCode) {
     expect_error("run missing.toml", 4, "missing.toml");
+    expect_error("run .", 4, "Is a directory");
     const std::string text = example_with("mesh = \"icosphere\"", "file = \"missing.vtp\"");
     expect_error("run --check " + write("case.toml", text), 4, "missing.vtp");
 }
 
 TEST_F(CommandLine, UnwritableFilesHaveTheirOwnCode) {
+    write("file", "a regular file\n");  // nothing can be below it, even for root
+    expect_error(small_run + "-o file/out", 4, "file/out");
+    expect_error(small_run + "-o file", 4, "output folder file: ");
     expect_error("mesh rbc --nodes 42 --shape sphere -o /proc/none/rbc.vtp", 4, "/proc/none");
     expect_error("mesh grid --cells 4 -o /proc/none/grid.vtr", 4, "/proc/none");
 }
 
-TEST_F(CommandLine, CoarseGridIsAWarning) {
-    const std::string file = write("case.toml", example_with("cells = [30, 30, 30]", "cells = [8, 8, 8]"));
-    const Outcome outcome = run("run --check " + file + " --set cell.0.nodes=642 --set grid.kind=uniform");
-    EXPECT_EQ(outcome.code, 0);
-    EXPECT_TRUE(outcome.text.starts_with("warning: ")) << outcome.text;
+TEST_F(CommandLine, CoarseGridIsAWarningAndTheRunGoesOn) {
+    const std::string coarse =
+        small_run + "--set 'grid.cells=[8, 8, 8]' --set grid.kind=uniform --set numerics.reynolds=1 ";
+    const std::string warning = "warning: cell.0: only 0.5";
+    const Outcome checked = run(coarse + "--check");
+    EXPECT_EQ(checked.code, 0) << checked.text;
+    EXPECT_TRUE(checked.text.starts_with(warning)) << checked.text;
+    EXPECT_NE(checked.text.find("grid cells across its thinnest part"), std::string::npos) << checked.text;
+    const Outcome done = run(coarse + "--set time.strain=0.01 -o out");
+    EXPECT_EQ(done.code, 0) << done.text;
+    EXPECT_TRUE(done.text.starts_with(warning)) << done.text;
+    EXPECT_EQ(std::count(done.text.begin(), done.text.end(), '\n'), 1) << done.text;
+    EXPECT_TRUE(fs::exists(folder_ / "out/summary.json"));
 }
 
 TEST_F(CommandLine, CheckPrintsACaseThatCanBeRunAgain) {
@@ -189,6 +196,10 @@ TEST_F(CommandLine, MembraneInputIsChecked) {
     expect_error("membrane relax --reference unform -o x", 2, "\"uniform\" was meant");
     expect_error("membrane stretch --forces 100 -o x", 2, "the unit is missing");
     expect_error("membrane relax --nodes 42 -o /proc/none/x", 4, "/proc/none/x");
+    expect_error("membrane stretch --set membrane.experiment=none.csv -o x", 4, "none.csv");
+    write("bad.csv", "F_pN,DA_um\n0,8\n");
+    expect_error("membrane stretch --set membrane.experiment=bad.csv -o x", 2, "DT_um");
+    EXPECT_FALSE(fs::exists(folder_ / "x"));
     write("note.txt", "not a run\n");
     expect_error("membrane relax --nodes 42 -o .", 2, "is not empty");
 }
