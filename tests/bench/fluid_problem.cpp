@@ -48,7 +48,9 @@ FluidProblem::FluidProblem(std::array<int, 3> n, Features features)
       boundary(patches, grid),
       state(grid.view().layout, features == Features::full, features == Features::full, viscosity),
       residual(grid.view().layout, false, false, 0),
-      parameters{viscosity, 1, features == Features::full, features == Features::full} {
+      parameters{.nu = viscosity,
+                 .with_force = features == Features::full,
+                 .with_viscosity = features == Features::full} {
     const exchange::Layout& layout = grid.view().layout;
     const fluid::StateView& s = state.view();
     for (int c = 0; c < 4; ++c)
