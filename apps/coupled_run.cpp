@@ -86,20 +86,26 @@ class CoupledRun {
             system_.loop->step(system_.numerics.step);
             ++done_;
             const bool last = done_ == system_.plan.steps;
-            const bool write = last || due(system_.plan, done_, case_.output.interval_strain);
+            const bool write = last || due(system_.plan, done_, frame_interval());
             const bool row = write || due(system_.plan, done_, case_.output.history_interval_strain);
             const bool save = last || due(system_.plan, done_, case_.output.checkpoint_interval_strain);
             const bool stop = interrupted();
             if (row || save || stop || done_ % watch_interval == 0) system_.loop->check();
             if (row) record();
             if (write) frame();
-            if (row) remember();
+            if (row || save) remember();
             if (save || stop) files_.write_checkpoint(checkpoint(), done_);
             progress.update(
                 {done_, system_.plan.at(done_), cells * static_cast<double>(system_.fluid->evaluations())});
             if (stop && !last) return static_cast<int>(Exit::interrupted);
         }
         return static_cast<int>(Exit::done);
+    }
+
+    /// Strain between two frames.
+    [[nodiscard]] double frame_interval() const {
+        return case_.output.interval ? *case_.output.interval * *case_.shear_rate
+                                     : case_.output.interval_strain;
     }
 
     void record() {
@@ -173,7 +179,7 @@ class CoupledRun {
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         plot_inclination();
-        draw_pictures(case_, files_);
+        draw_pictures(case_, files_, "strain");
         files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
     }
 

@@ -46,9 +46,6 @@ void check_supported(const Case& c) {
         throw InputError("[shear] rate",
                          "a coupled run takes its clock, the strain, from the shear rate and none is given",
                          "Give a rate");
-    if (c.acceleration != Triple{})
-        throw InputError("[body_force]", "in a coupled run the force field belongs to the membranes",
-                         "Drive the flow by its boundaries, or use kind = \"fluid\"");
     if (c.numerics.gamma != 1)
         throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma),
                          "preconditioning changes the path in time, and a coupled run is unsteady",
@@ -73,6 +70,31 @@ std::unique_ptr<membrane::Batch> make_cells(const Case& c) {
     return batch;
 }
 
+/// The relaxed cells must lie inside the box and must not overlap: no two of their nodes closer than a tenth of an edge,
+/// and no centre of one inside the other's smallest half-width.
+void check_places(const Case& c, const meshing::RectilinearGrid& grid, const membrane::Batch& cells) {
+    std::vector<std::vector<Vec3d>> placed;
+    placed.reserve(cells.cells());
+    const double close = 0.5 * membrane::mean_edge(cells.topology(), cells.positions(0));
+    for (std::size_t i = 0; i < cells.cells(); ++i) {
+        const auto& one = placed.emplace_back(cells.positions(i));
+        for (const Vec3d& r : one) {
+            const double x[3] = {r.x, r.y, r.z};
+            for (std::size_t a = 0; a < 3; ++a)
+                if (!c.periodic(a) && (x[a] < grid.axes[a].lower() || x[a] > grid.axes[a].upper()))
+                    throw InputError(fmt::format("[[cell]] number {}", i),
+                                     "relaxed, it reaches through a side of the box that is not periodic",
+                                     "Move it inside or enlarge the box");
+        }
+        for (std::size_t k = 0; k < i; ++k)
+            for (const Vec3d& a : one)
+                for (const Vec3d& b : placed[k])
+                    if (norm(a - b) < close)
+                        throw InputError(fmt::format("[[cell]] numbers {} and {}", k, i),
+                                         "their membranes touch or cross", "Move them apart");
+    }
+}
+
 std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::RectilinearGrid& grid,
                                           const coupling::Numerics& n, const Scales& scales) {
     fluid::SolverOptions o;
@@ -82,6 +104,10 @@ std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::Rectilin
     o.with_viscosity = std::any_of(c.cells.begin(), c.cells.end(), [&](const CellInput& cell) {
         return cell.cytosol_viscosity != c.fluid.viscosity;
     });
+    for (const CellInput& cell : c.cells)
+        o.smallest_nu = std::min(o.smallest_nu > 0 ? o.smallest_nu : n.nu,
+                                 n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
+    set_acceleration(c, scales, o);
     o.tau_floor = c.numerics.tau_floor;
     o.scheme = scheme_of(c.time.scheme);
     auto solver = std::make_unique<fluid::Solver>(grid, make_patches(c, scales, n.rate), o);
@@ -129,8 +155,7 @@ coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& gr
     choice.mach = c.numerics.mach.value_or(0);
     choice.step_strain = c.time.step ? *c.time.step * *c.shear_rate : c.numerics.step_strain.value_or(0);
     choice.kernel = kernel_of(c.coupling.kernel);
-    choice.factored = c.time.scheme == TimeScheme::factored;
-    choice.real_limit = c.time.scheme == TimeScheme::rk4 ? fluid::real_limit_rk4 : fluid::real_limit_euler;
+    choice.scheme = scheme_of(c.time.scheme);
     return coupling::choose_numerics(p, choice);
 }
 
@@ -143,12 +168,24 @@ CoupledSystem::CoupledSystem(const Case& c)
     scales = {numerics.velocity_um_per_s, c.fluid.viscosity * *c.shear_rate / (numerics.nu * numerics.rate),
               c.fluid.viscosity / numerics.nu, c.fluid.density};
     check_same_kind(c.cells);
+    const double mach = std::sqrt(3.0) * fastest_side(c) / scales.velocity_um_per_s;
+    if (!(mach < 0.3))
+        throw InputError(fmt::format("a side moves at Mach {:.3g}", mach),
+                         "the equilibrium is an expansion for small Mach numbers, useful up to 0.3",
+                         "Lower its velocity, numerics.reynolds or numerics.lattice_viscosity");
+    const auto window = c.output.window_strain;
+    if (window && !((*window)[0] < strain_of(c)))
+        throw InputError(
+            fmt::format("output.window_strain = [{}, {}]", (*window)[0], (*window)[1]),
+            fmt::format("the run ends at strain {:.4g}, so no observable would be taken", strain_of(c)),
+            "Let the window begin earlier, or run longer");
     fluid = make_fluid(c, grid, numerics, scales);
     static_cast<void>(coupling::CellGrid(grid, fluid->grid().periodic()));  // refuses too few cells
 }
 
 void CoupledSystem::add_cells(const Case& c) {
     cells = make_cells(c);
+    check_places(c, fluid->grid().rectilinear(), *cells);
     loop = make_loop(c, numerics, *fluid, *cells);
 }
 
@@ -163,6 +200,7 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
     checkpoint.put("loop.viscosity_z", memory.viscosity_nodes[2]);
     checkpoint.put("loop.target", {memory.target.begin(), memory.target.end()});
+    checkpoint.put("loop.shift", {memory.shift.begin(), memory.shift.end()});
 }
 
 void CoupledSystem::load(const output::Checkpoint& checkpoint) {
@@ -177,6 +215,8 @@ void CoupledSystem::load(const output::Checkpoint& checkpoint) {
                               checkpoint.array("loop.viscosity_z")};
     const auto& target = checkpoint.array("loop.target", 3);
     std::copy(target.begin(), target.end(), memory.target.begin());
+    const auto& shift = checkpoint.array("loop.shift", 3);
+    std::copy(shift.begin(), shift.end(), memory.shift.begin());
     loop->restore(memory);
 }
 

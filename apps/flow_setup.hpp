@@ -22,6 +22,12 @@ fluid::Patches make_patches(const Case& c, const Scales& scales, double rate);
 /// Start of the flow: at rest, or u = rate y.
 std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate);
 
+/// Puts the case's acceleration into the solver's options as a uniform body force.
+void set_acceleration(const Case& c, const Scales& scales, fluid::SolverOptions& options);
+
+/// Largest speed that a side of given velocity has, um/s.
+double fastest_side(const Case& c);
+
 /// The solver's scheme.
 fluid::Scheme scheme_of(TimeScheme scheme);
 

@@ -76,7 +76,11 @@ class FluidRun {
         output::Progress progress(system_.plan.at(done_), system_.plan.at(system_.plan.steps), "s",
                                   options_.quiet);
         const auto cells = static_cast<double>(system_.solver.grid().view().layout.cells());
-        const double frames = interval(case_.output.interval_strain), rows = frames / 10;
+        const double frames = interval(case_.output.interval_strain);
+        const double rows =
+            case_.shear_rate ? case_.output.history_interval_strain / *case_.shear_rate : frames / 10;
+        const double saves =
+            case_.shear_rate ? case_.output.checkpoint_interval_strain / *case_.shear_rate : frames;
         output::Checkpoint good = checkpoint();
         long long good_step = done_;
         while (done_ < system_.plan.steps) {
@@ -91,7 +95,7 @@ class FluidRun {
                 good = checkpoint();
                 good_step = done_;
             }
-            if (frame || stop) files_.write_checkpoint(checkpoint(), done_);
+            if (last || stop || due(system_.plan, done_, saves)) files_.write_checkpoint(checkpoint(), done_);
             progress.update(
                 {done_, system_.plan.at(done_), cells * static_cast<double>(system_.solver.evaluations())});
             if (stop && !last) return static_cast<int>(Exit::interrupted);
@@ -158,7 +162,7 @@ class FluidRun {
         s.errors_estimated["compressibility"] = system_.mach * system_.mach;
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
-        draw_pictures(case_, files_);
+        draw_pictures(case_, files_, "time in s");
         files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
     }
 

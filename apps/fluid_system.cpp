@@ -16,12 +16,10 @@ constexpr double step_share = 0.9;
 /// Largest speed that the boundary conditions, the shear or the driving force suggest, um/s. A driven stream
 /// is taken as plane Poiseuille flow between the closest sides that are not periodic: u = f w^2/(8 mu).
 double fastest(const Case& c, const meshing::RectilinearGrid& grid) {
-    double speed = c.shear_rate ? *c.shear_rate * shear_reach(grid) : 0;
+    double speed = std::max(fastest_side(c), c.shear_rate ? *c.shear_rate * shear_reach(grid) : 0);
     double width = 1e300, low = 1e300, high = -1e300;
     for (std::size_t a = 0; a < 3; ++a) {
         for (const PatchInput& p : c.boundary[a]) {
-            if (p.velocity == VelocityCondition::vector)
-                speed = std::max(speed, std::hypot(p.vector[0], p.vector[1], p.vector[2]));
             if (p.density == DensityCondition::pressure)
                 low = std::min(low, p.value), high = std::max(high, p.value);
         }
@@ -55,20 +53,12 @@ fluid::Solver make_solver(const Case& c, const meshing::RectilinearGrid& grid, c
     const double rate = c.shear_rate.value_or(0) / scales.velocity_um_per_s;
     fluid::SolverOptions o;
     o.nu = c.fluid.viscosity / scales.viscosity_pa_s;
-    o.with_force = c.acceleration != Triple{};
+    set_acceleration(c, scales, o);
     o.gamma = c.numerics.gamma;
     o.tau_floor = c.numerics.tau_floor;
     o.scheme = scheme_of(c.time.scheme);
     fluid::Solver solver(grid, make_patches(c, scales, rate), o);
     solver.initialise(initial_flow(c, rate));
-    if (o.with_force) {
-        // rho a in lattice units: um/s^2 over c^2/um
-        const double factor = 1e6 / (scales.velocity_um_per_s * scales.velocity_um_per_s);
-        const std::size_t cells = solver.grid().view().layout.cells();
-        for (std::size_t a = 0; a < 3; ++a)
-            solver.state().set_interior(solver.state().view().force[a],
-                                        std::vector<double>(cells, factor * c.acceleration[a]));
-    }
     return solver;
 }
 
@@ -79,7 +69,7 @@ double step(const Case& c, const FluidSystem& s) {
     if (c.numerics.step_strain) return *c.numerics.step_strain / *c.shear_rate;
     return step_share * s.scales.time_s() *
            fluid::stable_step(s.solver.grid(), s.solver.options().scheme, s.solver.options().nu,
-                              s.mach / std::sqrt(3.0));
+                              s.mach / std::sqrt(3.0), s.solver.options().gamma);
 }
 
 }  // namespace

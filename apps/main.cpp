@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <string>
 #include <vector>
@@ -76,6 +77,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    hemoflux::exchange::limit_spinning(argv);
     try {
         if (argc > 1 &&
             std::string(argv[1]) == "render-pictures") {  // the child that draws, see output/pictures.hpp
@@ -89,5 +91,9 @@ int main(int argc, char** argv) {
         fmt::print(stderr,
                    "error: The memory is exhausted: the case does not fit. Use fewer cells or nodes.\n");
         return static_cast<int>(hemoflux::Exit::numerical);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "error: {}: the system refused what the run needs. Check paths and free space.\n",
+                   error.what());
+        return static_cast<int>(hemoflux::Exit::file);
     }
 }

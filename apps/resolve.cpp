@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "apps/toml_input.hpp"
@@ -89,7 +90,8 @@ bool Checker::fits(const Form& form, const toml::node& value) const {
 }
 
 void Checker::check_range(const Form& form, double value, const toml::node& node) const {
-    const bool inside = (form.open ? value > form.low : value >= form.low) && value <= form.high;
+    const bool inside =
+        (form.open ? value > form.low : value >= form.low) && value <= form.high && std::isfinite(value);
     if (!inside) {
         const std::string unit = form.unit.empty() ? "" : " " + form.unit;
         refuse(node, fmt::format("out of range, {}", form.because.empty() ? "no such value" : form.because),

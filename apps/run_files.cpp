@@ -172,9 +172,10 @@ output::Summary start_summary(const Case& c) {
     return summary;
 }
 
-void draw_pictures(const Case& c, const RunFiles& files) {
+void draw_pictures(const Case& c, const RunFiles& files, const std::string& time_label) {
     if (!c.output.pictures) return;
-    const output::Pictures pictures = output::make_pictures(files.folder().path());
+    const output::Pictures pictures =
+        output::make_pictures(files.folder().path(), {.time_label = time_label});
     if (!pictures.message.empty()) files.log().warn(pictures.message);
 }
 

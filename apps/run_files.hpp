@@ -81,7 +81,7 @@ int watched(const output::Log& log, const March& march) {
 /// A summary with case, version, backend, threads and references filled in.
 output::Summary start_summary(const Case& c);
 
-/// Pictures of the frames and the log line if there are none; never fails.
-void draw_pictures(const Case& c, const RunFiles& files);
+/// Pictures of the frames, whose times are labelled time_label, and the log line if there are none; never fails.
+void draw_pictures(const Case& c, const RunFiles& files, const std::string& time_label);
 
 }  // namespace hemoflux::apps

@@ -1,11 +1,11 @@
 /// Immersed boundary kernels: weights w_k of the cells k around a marker at X, one axis at a time.
 ///
-///   phi2(r) = 1 - r                                     r <= 1 (5.7) phi3(r) = (1 + sqrt(1 - 3 r^2))/3 r <=
-///   1/2
-///             (5 - 3 r - sqrt(-2 + 6 r - 3 r^2))/6      1/2 <= r <= 3/2 (5.8)
-///   phi4(r) = (3 - 2 r + sqrt(1 + 4 r - 4 r^2))/8       r <= 1       (5.9; the thesis prints - sqrt)
+///   phi2(r) = 1 - r                                     r <= 1                (5.7)
+///   phi3(r) = (1 + sqrt(1 - 3 r^2))/3                   r <= 1/2
+///             (5 - 3 r - sqrt(-2 + 6 r - 3 r^2))/6      1/2 <= r <= 3/2       (5.8)
+///   phi4(r) = (3 - 2 r + sqrt(1 + 4 r - 4 r^2))/8       r <= 1                (5.9; the thesis prints - sqrt)
 ///             (5 - 2 r - sqrt(-7 + 12 r - 4 r^2))/8     1 <= r <= 2
-///   Lagrange  w_a = prod_{b != a} (X - x_b)/(x_a - x_b) over four cells (5.18)
+///   Lagrange  w_a = prod_{b != a} (X - x_b)/(x_a - x_b) over four cells       (5.18)
 ///
 /// r = |s - k| is a distance in cells, s(X) the cell number continued linearly between the centres. On
 /// stretched grids and near walls sum w_k (x_k - X) would not vanish, hence the linear moment correction

@@ -97,6 +97,7 @@ void Loop::check() {
             "its density or velocity is no longer a sound number; the step is probably too long",
             "shorten numerics.step_strain, or lower numerics.lattice_viscosity");
     }
+    stencils_.update(position_.component[0], position_.component[1], position_.component[2]);
     const std::size_t lost = stencils_.first_lost();
     if (lost < nodes_)
         throw NumericalError(
@@ -106,11 +107,14 @@ void Loop::check() {
 }
 
 LoopMemory Loop::memory() const {
-    return {viscosity_ ? viscosity_->positions() : std::array<std::vector<double>, 3>{}, target_};
+    return {viscosity_ ? viscosity_->positions() : std::array<std::vector<double>, 3>{},
+            target_,
+            {shift_.x, shift_.y, shift_.z}};
 }
 
 void Loop::restore(const LoopMemory& memory) {
     target_ = memory.target;
+    shift_ = {memory.shift[0], memory.shift[1], memory.shift[2]};
     if (options_.recentre)
         recentring_ = std::make_unique<Recentring>(cells_.topology().triangles(), cells_.stride(),
                                                    cells_.cells(), Vec3d{target_[0], target_[1], target_[2]});

@@ -35,6 +35,7 @@ struct LoopOptions {
 struct LoopMemory {
     std::array<std::vector<double>, 3> viscosity_nodes;  ///< nodes when the viscosity was last computed
     std::array<double, 3> target{};                      ///< where the centroid is held
+    std::array<double, 3> shift{};                       ///< sum of all shifts so far
     bool operator==(const LoopMemory&) const = default;
 };
 

@@ -69,11 +69,12 @@ Numerics choose_numerics(const PhysicalCase& p, const NumericsChoice& choice) {
         const double gain =
             choice.kernel == Kernel::phi3 || choice.kernel == Kernel::phi4 ? smooth_kernel_gain : 1;
         const double membrane = membrane_fraction * gain * n.capillary;  // G dt for dt = fraction mu R0/K_S
-        double fluid = acoustic_fraction * p.smallest_cell / (1 + n.mach / std::sqrt(3.0)) * n.rate;
+        double fluid = fluid::factored_limit * p.smallest_cell / (1 + n.mach / std::sqrt(3.0)) * n.rate;
         n.step_limit = "acoustic";
-        if (!choice.factored) {
-            const double viscous =
-                0.9 * choice.real_limit * p.smallest_cell * p.smallest_cell / (16 * n.largest_nu);
+        if (choice.scheme != fluid::Scheme::factored) {
+            const double limit =
+                choice.scheme == fluid::Scheme::rk4 ? fluid::real_limit_rk4 : fluid::real_limit_euler;
+            const double viscous = 0.9 * limit * p.smallest_cell * p.smallest_cell / (16 * n.largest_nu);
             if (viscous * n.rate < fluid) {
                 fluid = viscous * n.rate;
                 n.step_limit = "viscous";

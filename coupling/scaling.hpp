@@ -1,10 +1,9 @@
 /// From a physical case to the numbers the solvers use, by capillary scaling (6.52).
 ///
 /// Strain G t is the common clock. The lattice viscosity nu/h controls the accuracy: continuity carries a
-/// spurious
-/// + delta laplace(p), which leaks a volume flux of order delta nu/(h R) through a membrane; the shear
-/// Reynolds number Re_G = G D^2/nu, D = 2 R0, measures the inertia that creeping flow does not have. Both are
-/// chosen here instead of taken from the physical case; every modulus, spring constant and force is
+/// spurious term delta laplace(p), which leaks a volume flux of order delta nu/(h R) through a membrane; the
+/// shear Reynolds number Re_G = G D^2/nu, D = 2 R0, measures the inertia that creeping flow does not have.
+/// Both are chosen here instead of taken from the physical case; every modulus, spring constant and force is
 /// multiplied by one factor, so that the capillary number Ca = G mu R0/K_S and the viscosity ratio are those
 /// of the physical case:
 ///   nu = (nu/h) h,  G* = Re_G nu/D^2,  force* = force mu* G*/(mu G) per um^2,  mu* = rho nu, rho = 1, c = 1.
@@ -14,6 +13,7 @@
 #include <string>
 
 #include "coupling/delta_kernel.hpp"
+#include "fluid/time_step.hpp"
 
 namespace hemoflux::coupling {
 
@@ -36,8 +36,7 @@ struct NumericsChoice {
     double mach = 0;                 ///< wall speed / c_s; given, it replaces reynolds
     double step_strain = 0;          ///< G dt
     Kernel kernel = Kernel::lagrange;
-    bool factored = true;   ///< the factored scheme; else an explicit one
-    double real_limit = 2;  ///< of an explicit scheme, fluid/time_step.hpp
+    fluid::Scheme scheme = fluid::Scheme::factored;
 };
 
 /// The solvers' numbers. Lengths in um, velocities in c, density 1; a lattice time is um / c.
@@ -59,9 +58,6 @@ struct Numerics {
     std::string step_limit;
 };
 
-/// Fraction of dt c = h used when the factored scheme's step is chosen; it is stable up to 1 in boxes of
-/// cells.
-inline constexpr double acoustic_fraction = 0.9;
 /// The membrane allows steps of about 0.05 mu R0/K_S with Lagrange weights and twice that with phi4; chosen
 /// is a bit less.
 inline constexpr double membrane_fraction = 0.0425, smooth_kernel_gain = 2;

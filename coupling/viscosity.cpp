@@ -1,5 +1,6 @@
 #include "coupling/viscosity.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "coupling/tile_scan.hpp"
@@ -13,15 +14,18 @@ namespace {
 /// Adds one membrane cell to the viscosity.
 struct AddCell {
     double* nu;
-    double jump;
-    HEMOFLUX_INLINE void operator()(std::size_t at, double ratio) const { nu[at] += jump * heaviside(ratio); }
+    double jump, low, high;
+    HEMOFLUX_INLINE void operator()(std::size_t at, double ratio) const {
+        const double sum = nu[at] + jump * heaviside(ratio);
+        nu[at] = sum < low ? low : (sum > high ? high : sum);
+    }
 };
 
 /// Viscosity of one tile: all membrane cells in turn.
 struct ViscosityTile {
     SurfacesView surfaces;
     const double* nu_inside;
-    double nu_outside;
+    double nu_outside, low, high;
     double* nu;
     HEMOFLUX_FN void operator()(std::size_t tile) const {
         const TileRange r = surfaces.tiles.range(tile);
@@ -30,7 +34,8 @@ struct ViscosityTile {
                 for (int i = 0; i < surfaces.grid.axis[0].n; ++i)
                     nu[surfaces.grid.layout.at(i, j, k)] = nu_outside;
         TileScan scan(surfaces, tile);
-        for (std::size_t c = 0; c < surfaces.cells; ++c) scan(c, AddCell{nu, nu_inside[c] - nu_outside});
+        for (std::size_t c = 0; c < surfaces.cells; ++c)
+            scan(c, AddCell{nu, nu_inside[c] - nu_outside, low, high});
     }
 };
 
@@ -43,6 +48,10 @@ struct VertexNormal {
     HEMOFLUX_FN void operator()(std::size_t v) const {
         const std::size_t c = v / vertices;
         Vec3d sum{0, 0, 0};
+        if (ring_begin[v % vertices] == ring_begin[v % vertices + 1]) {  // padding between two cells
+            normal[0][v] = normal[1][v] = normal[2][v] = 0;
+            return;
+        }
         for (int i = ring_begin[v % vertices]; i < ring_begin[v % vertices + 1]; ++i) {
             const BandTriangle& t = triangle[c * triangles + static_cast<std::size_t>(ring[i])];
             sum += cross(t.ab, t.ac);
@@ -103,7 +112,12 @@ InteriorViscosity::InteriorViscosity(const CellGrid& grid, const std::vector<std
       nu_inside_(nu_inside),
       motion_(std::make_unique<Motion>()) {
     check(nu_outside, "outside the cells");
-    for (const double nu : nu_inside) check(nu, "inside a cell");
+    low_ = high_ = nu_outside;
+    for (const double nu : nu_inside) {
+        check(nu, "inside a cell");
+        low_ = std::min(low_, nu);
+        high_ = std::max(high_, nu);
+    }
     const Rings rings(triangles, vertices);
     ring_begin_ = exchange::Buffer<int>(rings.begin);
     ring_ = exchange::Buffer<int>(rings.triangle);
@@ -132,7 +146,7 @@ void InteriorViscosity::recompute(const double* x, const double* y, const double
     distance_.prepare(x, y, z);
     const SurfacesView surfaces = distance_.view();
     exchange::for_each_index(surfaces.tiles.count(),
-                             ViscosityTile{surfaces, nu_inside_.data(), nu_outside_, nu});
+                             ViscosityTile{surfaces, nu_inside_.data(), nu_outside_, low_, high_, nu});
     const double* from[3] = {x, y, z};
     for (int q = 0; q < 3; ++q)
         exchange::copy_on_device(position_[q].data(), from[q], position_[q].size() * sizeof(double));

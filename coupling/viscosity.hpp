@@ -3,7 +3,7 @@
 ///   nu = nu_ext + sum_c (nu_int,c - nu_ext) H(d_c)                                      (6.45)
 ///   H(d) = 1/2 [1 + d/h + sin(pi d/h)/pi] for |d| <= h, 0 outside, 1 inside             (6.46)
 ///
-/// d is the signed distance to membrane c and h the local cell (signed_distance.hpp). The field is recomputed
+/// limited to the range of the given viscosities where cells overlap; d is the signed distance to membrane c and h the local cell (signed_distance.hpp). The field is recomputed
 /// only when a membrane has moved noticeably since it was last computed: a node by more than `normal`
 /// half-widths along its normal, or by more than `total` half-widths in any direction (a membrane that slides
 /// along itself, as in tank treading, encloses the same cells). d is then off by no more than about (normal +
@@ -63,7 +63,7 @@ class InteriorViscosity {
     struct Motion;
 
     SignedDistance distance_;
-    double nu_outside_;
+    double nu_outside_, low_, high_;
     MotionLimits limits_;
     std::size_t triangles_, recomputations_ = 0;
     /// Triangles around each vertex: vertex v has ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1] - 1].

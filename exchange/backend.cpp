@@ -6,6 +6,7 @@
 
 #if defined(HEMOFLUX_BACKEND_OMP)
 #include <omp.h>
+#include <unistd.h>
 #elif defined(HEMOFLUX_BACKEND_TBB)
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -80,6 +81,14 @@ void set_threads(int count) {
         throw InputError("number of threads " + std::to_string(count), "it cannot be negative",
                          "give a positive number, or 0 for the machine's default");
     state().set(count);
+}
+
+void limit_spinning([[maybe_unused]] char** arguments) {
+#if defined(HEMOFLUX_BACKEND_OMP)
+    constexpr const char* spins = "1000";
+    if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
+    if (setenv("GOMP_SPINCOUNT", spins, 0) == 0) execv("/proc/self/exe", arguments);
+#endif
 }
 
 }  // namespace hemoflux::exchange

@@ -16,4 +16,10 @@ int threads();
 /// Throws InputError when count is negative.
 void set_threads(int count);
 
+/// For a program's first line. Waiting threads of GCC's OpenMP runtime spin, which on a machine that does other work too
+/// makes two threads ten times slower than one. Unless OMP_WAIT_POLICY or GOMP_SPINCOUNT is set, this sets a short
+/// GOMP_SPINCOUNT and starts the program anew with the same arguments, because the runtime reads it only at its start.
+/// Returns when there is nothing to do (other backends, already set) or the system refuses.
+void limit_spinning(char** arguments);
+
 }  // namespace hemoflux::exchange

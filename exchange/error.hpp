@@ -13,11 +13,18 @@ enum class Exit { done = 0, bad_input = 2, numerical = 3, file = 4, interrupted 
 class Error : public std::runtime_error {
   public:
     Error(Exit code, const std::string& what, const std::string& why, const std::string& remedy)
-        : std::runtime_error(what + ": " + why + ". " + remedy + "."), code_(code) {}
+        : std::runtime_error(what + ": " + why + ". " + sentence(remedy) + "."), code_(code) {}
     /// Exit code of the program when this error ends it.
     [[nodiscard]] Exit code() const noexcept { return code_; }
 
   private:
+    /// The remedy begins a sentence of its own.
+    static std::string sentence(std::string text) {
+        if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+            text[0] = static_cast<char>(text[0] - 'a' + 'A');
+        return text;
+    }
+
     Exit code_;
 };
 

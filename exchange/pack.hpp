@@ -91,14 +91,17 @@ HEMOFLUX_INLINE Value gather(const double* p, const int* index) {
     }
 }
 
-/// Values p[0], p[pitch], p[2 pitch], ... of one pack.
+/// Values p[0], p[pitch], p[2 pitch], ... of one pack; lanes from `count` on repeat the last value.
 template <class Value>
-HEMOFLUX_INLINE Value load_strided(const double* p, std::ptrdiff_t pitch) {
+HEMOFLUX_INLINE Value load_strided(const double* p, std::ptrdiff_t pitch, std::ptrdiff_t count) {
     if constexpr (lanes<Value> == 1) {
         return *p;
     } else {
 #if !defined(HEMOFLUX_BACKEND_CUDA)
-        return Value([&](auto l) { return p[static_cast<std::ptrdiff_t>(l) * pitch]; });
+        return Value([&](auto l) {
+            const auto row = static_cast<std::ptrdiff_t>(l);
+            return p[(row < count ? row : count - 1) * pitch];
+        });
 #endif
     }
 }

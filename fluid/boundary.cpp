@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "exchange/error.hpp"
 
 namespace hemoflux::fluid {
@@ -53,15 +55,15 @@ std::array<bool, 3> periodic_axes(const Patches& patches) {
     return {is_periodic(patches[0]), is_periodic(patches[2]), is_periodic(patches[4])};
 }
 
-Boundary::Boundary(const Patches& patches, const Grid& grid) : grid_(&grid) { update(patches); }
+Boundary::Boundary(const Patches& patches, const Grid& grid) { update(patches, grid); }
 
-void Boundary::update(const Patches& patches) {
+void Boundary::update(const Patches& patches, const Grid& grid) {
     check(patches);
     patches_ = patches;
-    net_mass_flux_ = 0;
+    net_mass_flux_ = gross_mass_flux_ = 0;
     constexpr std::size_t g = exchange::ghosts;
-    const std::array<std::vector<double>, 3> centres{ghosted_centres(*grid_, 0), ghosted_centres(*grid_, 1),
-                                                     ghosted_centres(*grid_, 2)};
+    const std::array<std::vector<double>, 3> centres{ghosted_centres(grid, 0), ghosted_centres(grid, 1),
+                                                     ghosted_centres(grid, 2)};
     for (std::size_t p = 0; p < 6; ++p) {
         const Patch& patch = patches[p];
         const std::size_t axis = p / 2, side = p % 2, t1 = axis == 0 ? 1 : 0, t2 = axis == 2 ? 1 : 2;
@@ -72,11 +74,11 @@ void Boundary::update(const Patches& patches) {
         const std::size_t pitch = n1 + 2 * exchange::row_alignment;
         std::array<std::vector<double>, 4> value;
         value.fill(std::vector<double>(pitch * n2, 0.0));
-        const meshing::Axis& normal = grid_->rectilinear().axes[axis];
-        const auto& widths = grid_->ghosted_widths(static_cast<int>(axis));
+        const meshing::Axis& normal = grid.rectilinear().axes[axis];
+        const auto& widths = grid.ghosted_widths(static_cast<int>(axis));
         const double default_density = patch.density == DensityCondition::given ? 1.0 : 0.0;
-        const auto &w1 = grid_->ghosted_widths(static_cast<int>(t1)),
-                   &w2 = grid_->ghosted_widths(static_cast<int>(t2));
+        const auto &w1 = grid.ghosted_widths(static_cast<int>(t1)),
+                   &w2 = grid.ghosted_widths(static_cast<int>(t2));
         for (std::size_t b = 0; b < n2; ++b)
             for (std::size_t a = 0; a < n1; ++a) {
                 double x[3];
@@ -89,8 +91,11 @@ void Boundary::update(const Patches& patches) {
                 const Vec3d u = patch.velocity_profile ? patch.velocity_profile(at) : Vec3d{0, 0, 0};
                 value[1][i] = u.x, value[2][i] = u.y, value[3][i] = u.z;
                 const bool inside = a >= g && a + g < n1 && b >= g && b + g < n2;
-                if (inside && patch.velocity == VelocityCondition::given)
-                    net_mass_flux_ += (side == 0 ? -1 : 1) * value[1 + axis][i] * w1[a] * w2[b];
+                if (inside && patch.velocity == VelocityCondition::given) {
+                    const double flux = (side == 0 ? -1 : 1) * value[1 + axis][i] * w1[a] * w2[b];
+                    net_mass_flux_ += flux;
+                    gross_mass_flux_ += std::abs(flux);
+                }
             }
         const std::size_t first = g * pitch + g;  // the face of cell (0, 0) of the patch
         const auto rule = [&](const exchange::Buffer<double>& values, double sign, double near, double far) {
@@ -105,7 +110,8 @@ void Boundary::update(const Patches& patches) {
             // normal.
             const std::size_t n = normal.cells(), border = side == 0 ? g : g + n - 1;
             const std::size_t next = n < 2 ? border : (side == 0 ? border + 1 : border - 1);
-            const double near = widths[border], far = 2 * widths[border] + widths[next];
+            const double near = widths[border];
+            const double far = n < 2 ? 2 * near : 2 * near + widths[next];
             density = rule(density_[p], 1, -near, -far);
         }
         for (std::size_t c = 0; c < 3; ++c) {
@@ -131,6 +137,14 @@ bool Boundary::closed() const {
     return true;
 }
 
-double Boundary::net_mass_flux() const { return net_mass_flux_; }
+void Boundary::check_mass_balance() const {
+    if (!closed() || std::abs(net_mass_flux_) <= 1e-10 * gross_mass_flux_) return;
+    throw InputError(
+        "the boundary",
+        fmt::format("the given velocities bring {:.3g} % more fluid in than out, and no side is open",
+                    -100 * net_mass_flux_ / gross_mass_flux_),
+        "balance the velocities, or let one side have a zero-gradient velocity with a given density or "
+        "pressure");
+}
 
 }  // namespace hemoflux::fluid

@@ -1,10 +1,12 @@
 /// Boundary conditions through two layers of ghost cells (2.2.3). A ghost value is linear through the face
 /// centroid, and profiles are evaluated at the face centroid:
-///   given value b:      phi_ghost = 2 b - phi_mirror
-///   zero gradient:      phi_ghost = phi_mirror
-///   given gradient g:   phi_ghost = phi_mirror - 2 d g, g along the inward normal, d from the mirror cell to
-///   the face symmetry:           zero gradient, the normal velocity with opposite sign periodic: the cell at
-///   the other end
+///
+///   given value b       phi_ghost = 2 b - phi_mirror
+///   zero gradient       phi_ghost = phi_mirror
+///   given gradient g    phi_ghost = phi_mirror - 2 d g   (g along the inward normal, d: mirror cell to face)
+///   symmetry            zero gradient, the normal velocity with opposite sign
+///   periodic            the cell at the other end
+///
 /// The mass flux through a face with a given velocity is exactly rho_0 u_n (rho_0 = 1, the reference
 /// density), so that a closed domain keeps its mass to rounding.
 #pragma once
@@ -45,7 +47,7 @@ Patch periodic_patch();
 Patch wall_patch();
 /// A given velocity profile, zero density gradient.
 Patch velocity_patch(std::function<Vec3d(const Vec3d&)> profile);
-/// A given density (pressure 3 rho), zero velocity gradient.
+/// A given density (pressure gamma rho / 3), zero velocity gradient.
 Patch density_patch(double density);
 /// Zero gradients of velocity and density.
 Patch open_patch();
@@ -86,7 +88,7 @@ class Boundary {
     Boundary(const Patches& patches, const Grid& grid);
 
     /// Re-evaluates all profiles, for conditions that change with time.
-    void update(const Patches& patches);
+    void update(const Patches& patches, const Grid& grid);
 
     /// Fills the ghost cells of density and velocity.
     void fill(const GridView& grid, const StateView& state) const;
@@ -99,17 +101,18 @@ class Boundary {
     [[nodiscard]] const Patches& patches() const { return patches_; }
     /// True when no patch lets mass through freely: all are periodic, symmetric or have a given velocity.
     [[nodiscard]] bool closed() const;
-    /// Sum of the prescribed mass fluxes, outward, over all patches (density 1); 0 for a compatible closed
-    /// domain.
-    [[nodiscard]] double net_mass_flux() const;
+    /// Throws InputError when the domain is closed but the given velocities do not balance, so that its mass
+    /// would grow or shrink for ever.
+    void check_mass_balance() const;
+    /// Sum of the prescribed mass fluxes, outward, over all patches (density 1).
+    [[nodiscard]] double net_mass_flux() const { return net_mass_flux_; }
 
   private:
-    const Grid* grid_;
     Patches patches_;
     std::array<exchange::Buffer<double>, 6> density_, mass_;
     std::array<std::array<exchange::Buffer<double>, 3>, 6> velocity_;
     BoundaryView view_;
-    double net_mass_flux_ = 0;
+    double net_mass_flux_ = 0, gross_mass_flux_ = 0;
 };
 
 }  // namespace hemoflux::fluid

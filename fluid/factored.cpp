@@ -12,7 +12,7 @@ using exchange::Pack;
 
 /// A pack of lines that run along y or z: lanes are neighbours in x.
 struct StridedAccess {
-    HEMOFLUX_INLINE static Pack get(const double* p, std::ptrdiff_t) { return load<Pack>(p); }
+    HEMOFLUX_INLINE static Pack get(const double* p, std::ptrdiff_t, std::ptrdiff_t) { return load<Pack>(p); }
     HEMOFLUX_INLINE static void put(double* p, std::ptrdiff_t, const Pack& v, std::ptrdiff_t) {
         exchange::store(p, v);
     }
@@ -20,8 +20,8 @@ struct StridedAccess {
 
 /// A pack of lines that run along x: lanes are neighbouring rows, `pitch` apart; the first `count` are real.
 struct TransposedAccess {
-    HEMOFLUX_INLINE static Pack get(const double* p, std::ptrdiff_t pitch) {
-        return exchange::load_strided<Pack>(p, pitch);
+    HEMOFLUX_INLINE static Pack get(const double* p, std::ptrdiff_t pitch, std::ptrdiff_t count) {
+        return exchange::load_strided<Pack>(p, pitch, count);
     }
     HEMOFLUX_INLINE static void put(double* p, std::ptrdiff_t pitch, const Pack& v, std::ptrdiff_t count) {
         exchange::store_strided(p, pitch, v, count);
@@ -37,22 +37,23 @@ HEMOFLUX_INLINE void solve_lines(double* const (&r)[3], const LineFactors (&fact
     for (std::ptrdiff_t i = 0; i < n; ++i)
         for (int c = 0; c < 3; ++c) {
             const LineFactors& f = factors[c];
-            x[c] = (scale * Access::get(r[c] + i * step, pitch) - f.lower[i] * x[c]) * f.pivot[i];
+            x[c] = (scale * Access::get(r[c] + i * step, pitch, count) - f.lower[i] * x[c]) * f.pivot[i];
             Access::put(r[c] + i * step, pitch, x[c], count);
         }
     for (std::ptrdiff_t i = n - 2; i >= 0; --i)
         for (int c = 0; c < 3; ++c) {
-            x[c] = Access::get(r[c] + i * step, pitch) - factors[c].upper[i] * x[c];
+            x[c] = Access::get(r[c] + i * step, pitch, count) - factors[c].upper[i] * x[c];
             Access::put(r[c] + i * step, pitch, x[c], count);
         }
     if (!factors[0].cyclic) return;
     for (int c = 0; c < 3; ++c) {
         const LineFactors& f = factors[c];
-        const Pack first = Access::get(r[c], pitch), last = Access::get(r[c] + (n - 1) * step, pitch);
+        const Pack first = Access::get(r[c], pitch, count),
+                   last = Access::get(r[c] + (n - 1) * step, pitch, count);
         const Pack correction = (first + f.cyclic_last * last) * f.cyclic_scale;
         for (std::ptrdiff_t i = 0; i < n; ++i)
             Access::put(r[c] + i * step, pitch,
-                        Access::get(r[c] + i * step, pitch) - correction * f.cyclic[i], count);
+                        Access::get(r[c] + i * step, pitch, count) - correction * f.cyclic[i], count);
     }
 }
 
@@ -103,10 +104,11 @@ Factored::Factored(const Grid& grid, const Boundary& boundary, double nu, double
     : layout_(grid.view().layout), nu_(nu), dt_(dt) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (std::size_t c = 0; c < 3; ++c) {
-            const HostLine line = factor_line(grid.ghosted_widths(static_cast<int>(axis)), exchange::ghosts,
-                                              dt * nu * (axis == c ? 2 : 1), grid.periodic()[axis],
-                                              repeat(boundary.patches()[2 * axis], axis, c),
-                                              repeat(boundary.patches()[2 * axis + 1], axis, c));
+            const HostLine line =
+                factor_line(grid.ghosted_widths(static_cast<int>(axis)), exchange::ghosts,
+                            dt * nu * (axis == c ? 2 : 1), grid.smallest_delta(static_cast<int>(axis)),
+                            grid.periodic()[axis], repeat(boundary.patches()[2 * axis], axis, c),
+                            repeat(boundary.patches()[2 * axis + 1], axis, c));
             const auto keep = [&](const std::vector<double>& values) {
                 buffers_.emplace_back(values);
                 return buffers_.back().data();

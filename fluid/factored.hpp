@@ -3,10 +3,12 @@
 ///   (I - dt nu Lx)(I - dt nu Ly)(I - dt nu Lz) dQ = dt R(Q)
 ///   L_x phi_i = [ (phi_{i+1} - phi_i)/s_{i+1/2} - (phi_i - phi_{i-1})/s_{i-1/2} ] / dx_i,
 ///
-/// s the distance of the cell centres, with 2 nu instead of nu along a component's own direction (2.45). A
-/// given velocity mirrors the increment (ghost = -dQ), a zero-gradient one copies it, periodic lines are
-/// cyclic (Sherman-Morrison). nu is constant and must be at least half the local viscosity everywhere; the
-/// steady state does not depend on it. The factors depend on dt and the grid only and are computed once.
+/// s the distance of the cell centres (stiffened by s/(2 delta) where the streaming distance delta of the
+/// faces is less than s/2, as in flat cells, because the explicit flux then is), with 2 nu instead of nu
+/// along a component's own direction (2.45). A given velocity mirrors the increment (ghost = -dQ), a
+/// zero-gradient one copies it, periodic lines are cyclic (Sherman-Morrison). nu is constant and must be at
+/// least half the local viscosity everywhere; the steady state does not depend on it. The factors depend on
+/// dt and the grid only and are computed once.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
 /// Flux through one axis-aligned face, from a local D3Q15 lattice Boltzmann solution at its centre (LBFS).
 ///
-///   f_a^eq = rho w_a [1 + 3 e.V + (4.5 (e.V)^2 - 1.5 |V|^2) / gamma]                           (2.7), (4.2)
-///   pre-streaming nodes at r - e_a delta, extrapolated from the cell they lie in                (2.13),
-///   (2.14) rho = sum f_a, rho V = sum e_a f_a (+ delta f, the balanced impulse of a body force f) (2.15)
-///   mass flux = rho V.n,  momentum flux = Pi_eq - (tau - 1/2)(Pi_eq - Pi_pre)                   (2.4), (2.9)
-///   tau - 1/2 = 3 nu / (gamma delta)                                                            (2.6)
+///   f_a^eq = rho w_a [1 + 3 e.V + (4.5 (e.V)^2 - 1.5 |V|^2) / gamma]                     (2.7), (4.2)
+///   pre-streaming nodes at r - e_a delta, extrapolated from the cell they lie in         (2.13), (2.14)
+///   rho = sum f_a,  rho V = sum e_a f_a                                                  (2.15)
+///   mass flux = rho V.n,  momentum flux = Pi_eq - (tau - 1/2)(Pi_eq - Pi_pre)            (2.4), (2.9)
+///   tau - 1/2 = 3 nu / (gamma delta)                                                     (2.6)
 ///
 /// A body force f adds its balanced impulse delta f to the momentum that makes the mass flux and the
 /// convective part of the momentum flux; the viscous part, a difference of moments before streaming, is left

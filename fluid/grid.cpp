@@ -69,6 +69,13 @@ Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, d
             *slots[s] = buffers_.back().data() + shift;
         }
     }
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto limit = [&](std::size_t axis, double share) {
+            return grid.axes[axis].cells() > 1 ? share * grid.axes[axis].smallest() : unlimited;
+        };
+        smallest_delta_[a] =
+            std::min({limit(a, 1.0), limit((a + 1) % 3, 0.5), limit((a + 2) % 3, 0.5), delta_max});
+    }
 }
 
 }  // namespace hemoflux::fluid

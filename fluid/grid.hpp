@@ -56,10 +56,16 @@ class Grid {
         return widths_[static_cast<std::size_t>(axis)];
     }
 
+    /// Smallest streaming distance of all faces across one axis.
+    [[nodiscard]] double smallest_delta(int axis) const {
+        return smallest_delta_[static_cast<std::size_t>(axis)];
+    }
+
   private:
     meshing::RectilinearGrid rectilinear_;
     std::array<bool, 3> periodic_;
     bool uniform_;
+    std::array<double, 3> smallest_delta_{};
     std::array<std::vector<double>, 3> widths_;
     std::vector<exchange::Buffer<double>> buffers_;
     GridView view_;

@@ -1,4 +1,6 @@
 // Reductions over the fluid's interior cells.
+#include <cmath>
+
 #include "exchange/pack.hpp"
 #include "exchange/parallel.hpp"
 #include "fluid/solver.hpp"
@@ -61,6 +63,7 @@ struct IsBad : Cells {
 }  // namespace
 
 ResidualNorm Solver::residual_norm() {
+    if (evaluations_ == 0) return {NAN, {NAN, NAN, NAN}};
     exchange::Reduction<Squares> reduction;
     const std::size_t n = grid_.view().layout.cells();
     const Squares s = reduction.sum(n, SquareOf{{grid_.view(), residual_.view()}});

@@ -11,7 +11,8 @@ namespace hemoflux::fluid {
 namespace {
 
 double delta_limit(const SolverOptions& o) {
-    return o.tau_floor > 0 ? 3 * o.nu / (o.gamma * o.tau_floor) : 1e300;
+    const double nu = o.smallest_nu > 0 ? o.smallest_nu : o.nu;
+    return o.tau_floor > 0 ? 3 * nu / (o.gamma * o.tau_floor) : 1e300;
 }
 
 const SolverOptions& checked(const SolverOptions& o) {
@@ -33,6 +34,7 @@ Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, con
       state_(grid_.view().layout, options.with_force, options.with_viscosity, options.nu),
       residual_(grid_.view().layout, false, false, 0) {
     if (options_.largest_nu < options_.nu) options_.largest_nu = options_.nu;
+    boundary_.check_mass_balance();
 }
 
 void Solver::initialise(const std::function<FlowPoint(const Vec3d&)>& flow) {
@@ -87,7 +89,8 @@ void Solver::step(double dt) {
     }
     if (options_.scheme == Scheme::factored) {
         if (!factored_ || factored_->dt() != dt)
-            factored_ = std::make_unique<Factored>(grid_, boundary_, options_.largest_nu, dt);
+            factored_ =
+                std::make_unique<Factored>(grid_, boundary_, options_.largest_nu / options_.gamma, dt);
         evaluate();
         factored_->solve(r);
         update_factored(layout, r, dt, state_.view());

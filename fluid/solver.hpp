@@ -20,6 +20,7 @@ namespace hemoflux::fluid {
 struct SolverOptions {
     double nu = 0;                        ///< kinematic viscosity (of the suspending fluid, where it varies)
     double largest_nu = 0;                ///< largest viscosity that will occur; 0: nu
+    double smallest_nu = 0;               ///< smallest viscosity that will occur, for tau_floor; 0: nu
     bool with_viscosity = false;          ///< viscosity varies in space
     bool with_force = false;              ///< a body force acts
     double uniform_force[3] = {0, 0, 0};  ///< body force per volume everywhere, added to the field
@@ -54,7 +55,8 @@ class Solver {
     /// Evaluates R(Q) into residual().
     void evaluate();
 
-    /// Root mean squares of the last residual evaluated. After a factored step: of its density part only.
+    /// Root mean squares of the last residual evaluated, NaN before the first. After a factored step only its
+    /// density part is a residual.
     ResidualNorm residual_norm();
 
     /// Volume-averaged density.

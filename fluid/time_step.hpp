@@ -20,18 +20,19 @@ enum class Scheme { euler, rk4, factored };
 inline constexpr double real_limit_euler = 2.0, real_limit_rk4 = 2.785;
 /// Extent of RK4's stability region along the imaginary axis (2.37).
 inline constexpr double imaginary_limit_rk4 = 2.828;
-/// The factored scheme's density part is explicit: dt c <= h. Noise in uniform and stretched cubes is stable
-/// up to exactly that; columns of 2.5 : 1 cells at nu/h = 4 only up to 0.8, which is therefore used.
-inline constexpr double factored_limit = 0.8;
+/// Share of dt c = h that is used with the factored scheme, whose density part is explicit: noise in uniform and stretched
+/// cubes and in columns of flat cells stays bounded exactly up to 1.
+inline constexpr double factored_limit = 0.9;
 
 /// Largest viscous eigenvalue of the scheme on this grid, 1/time. nu: largest kinematic viscosity.
 double viscous_eigenvalue(const Grid& grid, double nu);
 
-/// Largest eigenvalue of convection and sound, 1/time. speed: largest velocity magnitude.
-double acoustic_eigenvalue(const Grid& grid, double speed);
+/// Largest eigenvalue of convection and sound, 1/time. speed: largest velocity magnitude. With preconditioning the
+/// speeds are [u + sqrt(u^2 (1 - gamma) + gamma^2 c_s^2)]/gamma (4.13, corrected).
+double acoustic_eigenvalue(const Grid& grid, double speed, double gamma = 1);
 
 /// Largest stable step of an explicit scheme, by 1/dt = 1/dt_viscous + 1/dt_acoustic (2.54); for the factored
 /// scheme the smallest cell divided by c = 1 + speed.
-double stable_step(const Grid& grid, Scheme scheme, double nu, double speed);
+double stable_step(const Grid& grid, Scheme scheme, double nu, double speed, double gamma = 1);
 
 }  // namespace hemoflux::fluid

@@ -206,6 +206,9 @@ void Batch::report_overstretched() const {
             const double contour = reference_.stretch_ratio * reference_.edge_lengths[e];
             if (lengths[e] / contour < 1) continue;
             const Edge& edge = topology_->edges()[e];
+            if (std::isnan(lengths[e]))
+                throw NumericalError(fmt::format("vertex {} or {} of cell {}", edge.v1, edge.v2, c),
+                                     "its position is not a number", "Take smaller steps");
             throw NumericalError(
                 fmt::format("spring {} of cell {}, between vertices {} and {}, is {:.6g} um long", e, c,
                             edge.v1, edge.v2, lengths[e]),

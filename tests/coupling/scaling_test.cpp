@@ -60,7 +60,7 @@ TEST(Scaling, StepIsBoundByTheMembraneInSlowFlowAndBySoundInFastFlow) {
     EXPECT_NEAR(choose_numerics(p, smooth).step_strain, 2 * slow.step_strain, 1e-15);
     p.shear_rate = 3;
     NumericsChoice euler;
-    euler.factored = false;
+    euler.scheme = fluid::Scheme::euler;
     EXPECT_EQ(choose_numerics(p, euler).step_limit, "viscous");
     NumericsChoice given;
     given.step_strain = 1e-4;

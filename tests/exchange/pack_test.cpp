@@ -25,7 +25,8 @@ TEST(Pack, LoadStoreGatherSelect) {
     const Pack g = gather<Pack>(in.data(), index.data());
     store(out.data(), select(g > a, g, a));
     for (std::size_t i = 0; i < pack_lanes; ++i) EXPECT_EQ(out[i], std::max(in[31 - i], in[i + 1]));
-    const Pack t = load_strided<Pack>(in.data(), 3);
+    const Pack t = load_strided<Pack>(in.data(), 3, static_cast<std::ptrdiff_t>(pack_lanes));
+    EXPECT_EQ(lane_sum(load_strided<Pack>(in.data(), 3, 1)), static_cast<double>(pack_lanes) * in[0]);
     out.fill(-1);
     store_strided(out.data(), 2, t, static_cast<std::ptrdiff_t>(pack_lanes));
     for (std::size_t i = 0; i < pack_lanes; ++i) {

@@ -97,6 +97,12 @@ TEST(Boundary, NetMassFluxOfGivenVelocities) {
     p.fill(velocity_patch([](const Vec3d& x) { return Vec3d{x.y, 0, 0}; }));
     EXPECT_NEAR(Box(p).boundary.net_mass_flux(), 0, 1e-15);
     EXPECT_TRUE(Box(p).boundary.closed());
+    EXPECT_NO_THROW(Box(p).boundary.check_mass_balance());
+    p.fill(wall_patch());
+    p[0] = velocity_patch([](const Vec3d&) { return Vec3d{0.2, 0, 0}; });
+    EXPECT_THROW(Box(p).boundary.check_mass_balance(), InputError);
+    p[1] = density_patch(1);
+    EXPECT_NO_THROW(Box(p).boundary.check_mass_balance());
 }
 
 TEST(Boundary, PeriodicSidesComeInPairs) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "fluid/factored_lines.hpp"
@@ -11,8 +12,8 @@ namespace hemoflux::fluid {
 namespace {
 
 /// (I - strength L) x on one line, written out from the definition in factored.hpp.
-std::vector<double> apply(const std::vector<double>& widths, double strength, bool periodic, double low,
-                          double high, const std::vector<double>& x) {
+std::vector<double> apply(const std::vector<double>& widths, double strength, double delta, bool periodic,
+                          double low, double high, const std::vector<double>& x) {
     const std::size_t n = x.size();
     std::vector<double> y(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -20,7 +21,13 @@ std::vector<double> apply(const std::vector<double>& widths, double strength, bo
         const double above = i + 1 < n ? x[i + 1] : (periodic ? x[0] : high * x[n - 1]);
         const double s_minus = (widths[i + 1] + widths[i + 2]) / 2,
                      s_plus = (widths[i + 2] + widths[i + 3]) / 2;
-        y[i] = x[i] - strength * ((above - x[i]) / s_plus - (x[i] - below) / s_minus) / widths[i + 2];
+        const auto stiff = [&](double s, double other) {  // s / (2 delta), at least 1
+            return std::max(1.0, s / (2 * std::min({delta, widths[i + 2], other})));
+        };
+        y[i] = x[i] - strength *
+                          (stiff(s_plus, widths[i + 3]) * (above - x[i]) / s_plus -
+                           stiff(s_minus, widths[i + 1]) * (x[i] - below) / s_minus) /
+                          widths[i + 2];
     }
     return y;
 }
@@ -62,7 +69,7 @@ TEST(Factored, SolveInvertsTheProductOfTheFactors) {
                     std::vector<double> line(n[axis]);
                     for (std::size_t i = 0; i < n[axis]; ++i) line[i] = x[start + i * stride[axis]];
                     line = apply(grid.ghosted_widths(static_cast<int>(axis)), dt * nu * (normal ? 2 : 1),
-                                 kind == 0, ghost, ghost, line);
+                                 grid.smallest_delta(static_cast<int>(axis)), kind == 0, ghost, ghost, line);
                     for (std::size_t i = 0; i < n[axis]; ++i) x[start + i * stride[axis]] = line[i];
                 }
             }
@@ -76,7 +83,7 @@ TEST(Factored, SolveInvertsTheProductOfTheFactors) {
 TEST(Factored, ShortPeriodicLines) {
     for (const std::size_t n : {1u, 2u, 3u}) {
         const std::vector<double> widths(n + 4, 0.5);
-        const HostLine line = factor_line(widths, 2, 0.8, true, 1, 1);
+        const HostLine line = factor_line(widths, 2, 0.8, 0.25, true, 1, 1);
         std::vector<double> x(n, 1.0);  // a constant is in the kernel of L
         double previous = 0;
         for (std::size_t i = 0; i < n; ++i)

@@ -84,6 +84,29 @@ TEST_P(PoiseuilleFlow, SecondOrder) {
     EXPECT_GE(order, 1.95);
 }
 
+// Preconditioning changes the way to the steady state, not the state: the error is that of gamma = 1 (5.35e-3).
+TEST(PreconditionedPoiseuille, HasTheSameSteadyState) {
+    constexpr double nu = 0.2, peak = 0.01;
+    for (const Scheme scheme : {Scheme::euler, Scheme::rk4, Scheme::factored})
+        for (const double gamma : {0.5, 0.2}) {
+            SolverOptions o;
+            o.nu = nu;
+            o.gamma = gamma;
+            o.with_force = true;
+            o.uniform_force[0] = 8 * nu * peak;
+            o.scheme = scheme;
+            Solver solver(column(meshing::uniform_axis(0, 1, 16)), channel([](const Vec3d&) {
+                              return Vec3d{0, 0, 0};
+                          }),
+                          o);
+            const double dt = 0.9 * stable_step(solver.grid(), scheme, nu, peak, gamma);
+            march(solver, dt, static_cast<int>(4 * gamma / (nu * dt)) + 1);
+            const double error =
+                relative_l2(solver, 1, [](const Vec3d& x) { return 4 * peak * x.y * (1 - x.y); });
+            EXPECT_NEAR(error, 5.35e-3, 2e-4) << static_cast<int>(scheme) << " " << gamma;
+        }
+}
+
 /// Runs a Taylor-Green vortex to `end` decay times with a fixed step and returns the solver.
 std::unique_ptr<Solver> decay(const TaylorGreen& flow, const meshing::RectilinearGrid& grid, double end,
                               int steps) {

@@ -108,7 +108,9 @@ TEST(Batch, NotANumberIsAnError) {
     auto r = batch.positions(0);
     r[5].y = std::numeric_limits<double>::quiet_NaN();
     batch.set_positions(0, r);
-    EXPECT_NE(message(batch).find("vertices"), std::string::npos);
+    const std::string text = message(batch);
+    EXPECT_NE(text.find("vertex 5 "), std::string::npos) << text;
+    EXPECT_NE(text.find("its position is not a number"), std::string::npos) << text;
 }
 
 TEST(Batch, RefusesWrongInput) {
