@@ -235,7 +235,7 @@ void Scene::add_scale() {
 
 void Scene::add_texts(double time) {
     vtkNew<vtkTextActor> label;
-    label->SetInput(fmt::format("{} {:.4g}", spec_.time_label, time).c_str());
+    label->SetInput(fmt::format("{} {:.3g}", spec_.time_label, time).c_str());
     style(label->GetTextProperty(), spec_.height / 28);
     label->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
     label->SetPosition(0.03, 0.945);
