@@ -25,7 +25,7 @@ class CellObserver {
     std::vector<double> observe(membrane::Batch& cells, double strain);
 
     /// Observables over the strain window [from, to]; names carry their unit. For several cells the mean over
-    /// cells; of the first cell where a mean says nothing.
+    /// cells.
     [[nodiscard]] std::map<std::string, double> observables(double from, double to) const;
 
     /// Largest |V/V(0) - 1|, |A/A(0) - 1| and distance of a centroid from its start (um) seen so far.

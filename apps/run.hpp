@@ -15,7 +15,7 @@ struct RunOptions {
     int threads = 0;                ///< 0: HEMOFLUX_THREADS or the default of the backend
     std::filesystem::path restart;  ///< folder of the run to continue; empty: start anew
     bool quiet = false;             ///< print nothing but errors
-    std::vector<std::string> sets;  ///< overrides as typed, for the log
+    std::vector<std::string> sets;  ///< overrides as typed, applied when the case is read
 };
 
 /// Refuses, before anything is written, what check_case() does not see: numbers and conditions that the
