@@ -37,27 +37,43 @@ Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, con
     boundary_.check_mass_balance();
 }
 
-void Solver::initialise(const std::function<FlowPoint(const Vec3d&)>& flow) {
-    const std::size_t cells = grid_.view().layout.cells();
-    std::array<std::vector<double>, 4> q;
-    q.fill(std::vector<double>(cells));
-    for (std::size_t i = 0; i < cells; ++i) {
-        const FlowPoint p = flow(centre(i));
-        q[0][i] = p.density;
-        q[1][i] = p.velocity.x, q[2][i] = p.velocity.y, q[3][i] = p.velocity.z;
-    }
-    for (std::size_t c = 0; c < 4; ++c) state_.set_interior(state_.view().q[c], q[c]);
+namespace {
+
+/// Indices along the axes of a cell numbered x fastest.
+std::array<std::size_t, 3> indices(const exchange::Layout& layout, std::size_t cell) {
+    return {cell % layout.n[0], cell / layout.n[0] % layout.n[1], cell / (layout.n[0] * layout.n[1])};
 }
 
+}  // namespace
+
 Vec3d Solver::centre(std::size_t cell) const {
-    const auto& n = grid_.view().layout.n;
-    const std::size_t index[3] = {cell % n[0], cell / n[0] % n[1], cell / (n[0] * n[1])};
+    const auto index = indices(grid_.view().layout, cell);
     double x[3];
     for (std::size_t a = 0; a < 3; ++a) {
         const auto& faces = grid_.rectilinear().axes[a].faces;
         x[a] = (faces[index[a]] + faces[index[a] + 1]) / 2;
     }
     return {x[0], x[1], x[2]};
+}
+
+double Solver::volume(std::size_t cell) const {
+    const auto index = indices(grid_.view().layout, cell);
+    double volume = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto& faces = grid_.rectilinear().axes[a].faces;
+        volume *= faces[index[a] + 1] - faces[index[a]];
+    }
+    return volume;
+}
+
+std::vector<std::string> Solver::patches() const { return {"x-", "x+", "y-", "y+", "z-", "z+"}; }
+
+std::vector<double> Solver::values(int component) const {
+    return state_.interior(state_.view().q[component]);
+}
+
+void Solver::set_values(int component, const std::vector<double>& values) {
+    state_.set_interior(state_.view().q[component], values);
 }
 
 FlowParameters Solver::flow_parameters() const {

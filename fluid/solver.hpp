@@ -2,13 +2,13 @@
 /// Units: the grid's length unit, velocity c = 1, density 1; pressure = gamma rho / 3.
 #pragma once
 
-#include <functional>
 #include <memory>
 
 #include "exchange/field.hpp"
 #include "exchange/vec3.hpp"
 #include "fluid/boundary.hpp"
 #include "fluid/factored.hpp"
+#include "fluid/flow.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/residual.hpp"
 #include "fluid/state.hpp"
@@ -29,46 +29,31 @@ struct SolverOptions {
     Scheme scheme = Scheme::rk4;
 };
 
-/// Density and velocity at a point.
-struct FlowPoint {
-    double density = 1;
-    Vec3d velocity{0, 0, 0};
-};
-
-/// Root mean square of dQ/dt over the cells: density and the three momenta, each in its own unit per time.
-struct ResidualNorm {
-    double density = 0, momentum[3] = {0, 0, 0};
-};
-
-class Solver {
+/// The flow solver on a rectilinear grid; cells are numbered x fastest.
+class Solver final : public Flow {
   public:
     /// Throws InputError when options or patches are impossible.
     Solver(const meshing::RectilinearGrid& grid, const Patches& patches, const SolverOptions& options);
 
-    /// Sets density and velocity at every cell centre.
-    void initialise(const std::function<FlowPoint(const Vec3d&)>& flow);
+    [[nodiscard]] std::size_t cells() const override { return grid_.view().layout.cells(); }
+    [[nodiscard]] Vec3d centre(std::size_t cell) const override;
+    [[nodiscard]] double volume(std::size_t cell) const override;
+    [[nodiscard]] std::vector<std::string> patches() const override;
+    [[nodiscard]] std::vector<double> values(int component) const override;
+    void set_values(int component, const std::vector<double>& values) override;
 
     /// One time step of the chosen scheme. Force and viscosity, if used, are taken as they stand in their
     /// fields.
-    void step(double dt);
+    void step(double dt) override;
 
     /// Evaluates R(Q) into residual().
-    void evaluate();
+    void evaluate() override;
 
-    /// Root mean squares of the last residual evaluated, NaN before the first. After a factored step only its
-    /// density part is a residual.
-    ResidualNorm residual_norm();
-
-    /// Volume-averaged density.
-    double mean_density();
-    /// Largest velocity magnitude. NaN if any velocity is.
-    double largest_speed();
-    /// Index (x fastest) of the first cell whose density or velocity is not finite, or whose density is
-    /// outside (0.5, 1.5); the number of cells if there is none.
-    std::size_t first_bad_cell();
-
-    /// Centre of a cell numbered x fastest.
-    [[nodiscard]] Vec3d centre(std::size_t cell) const;
+    /// After a factored step only the density part is a residual.
+    ResidualNorm residual_norm() override;
+    double mean_density() override;
+    double largest_speed() override;
+    std::size_t first_bad_cell() override;
 
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const SolverOptions& options() const { return options_; }
@@ -76,8 +61,7 @@ class Solver {
     [[nodiscard]] const State& state() const { return state_; }
     [[nodiscard]] const Boundary& boundary() const { return boundary_; }
     [[nodiscard]] const State& residual() const { return residual_; }
-    /// Residual evaluations since construction.
-    [[nodiscard]] std::size_t evaluations() const { return evaluations_; }
+    [[nodiscard]] std::size_t evaluations() const override { return evaluations_; }
 
     /// Lays density, velocity, and force and viscosity where used, on the table as fluid.*.
     void offer(exchange::FieldTable& table) const;

@@ -1,0 +1,76 @@
+/// What a fluid solver is to its callers, whatever its grid: the outermost level of the fluid room. Inner loops never
+/// see this interface.
+/// Units: the grid's length unit, velocity c = 1, density 1; pressure = gamma rho / 3.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "exchange/vec3.hpp"
+
+namespace hemoflux::fluid {
+
+/// Density and velocity at a point.
+struct FlowPoint {
+    double density = 1;
+    Vec3d velocity{0, 0, 0};
+};
+
+/// Root mean square of dQ/dt over the cells: density and the three momenta, each in its own unit per time.
+struct ResidualNorm {
+    double density = 0, momentum[3] = {0, 0, 0};
+};
+
+/// One face of a border patch and the force of the fluid on what lies behind it. area points out of the fluid, its
+/// length is the face's area; the forces are in lattice units and carry the factor gamma of (4.22).
+struct WallFace {
+    Vec3d centre, area, pressure, viscous;
+};
+
+/// Fields and time stepping of one fluid domain. Cells are numbered 0 .. cells() - 1 in the order of the grid.
+class Flow {
+  public:
+    virtual ~Flow() = default;
+
+    [[nodiscard]] virtual std::size_t cells() const = 0;
+    /// Centre and volume of a cell.
+    [[nodiscard]] virtual Vec3d centre(std::size_t cell) const = 0;
+    [[nodiscard]] virtual double volume(std::size_t cell) const = 0;
+    /// Names of the border patches.
+    [[nodiscard]] virtual std::vector<std::string> patches() const = 0;
+
+    /// Values of one field at all cells, copied from the device: component 0 density, 1 to 3 velocity.
+    [[nodiscard]] virtual std::vector<double> values(int component) const = 0;
+    /// Replaces them; values.size() must be cells() (std::length_error).
+    virtual void set_values(int component, const std::vector<double>& values) = 0;
+    /// Sets density and velocity at every cell centre.
+    void initialise(const std::function<FlowPoint(const Vec3d&)>& flow);
+
+    /// Evaluates R(Q) = dQ/dt.
+    virtual void evaluate() = 0;
+    /// One time step of the solver's scheme.
+    virtual void step(double dt) = 0;
+    /// Residual evaluations since construction.
+    [[nodiscard]] virtual std::size_t evaluations() const = 0;
+
+    /// Root mean squares of the last residual evaluated, NaN before the first.
+    virtual ResidualNorm residual_norm() = 0;
+    /// Volume-averaged density.
+    virtual double mean_density() = 0;
+    /// Largest velocity magnitude. NaN if any velocity is.
+    virtual double largest_speed() = 0;
+    /// First cell whose density or velocity is not finite, or whose density is outside (0.5, 1.5); cells() if there is
+    /// none.
+    virtual std::size_t first_bad_cell() = 0;
+
+  protected:
+    Flow() = default;
+    Flow(const Flow&) = default;
+    Flow(Flow&&) = default;
+    Flow& operator=(const Flow&) = default;
+    Flow& operator=(Flow&&) = default;
+};
+
+}  // namespace hemoflux::fluid
