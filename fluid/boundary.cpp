@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "exchange/error.hpp"
 
@@ -22,6 +24,19 @@ std::vector<double> ghosted_centres(const Grid& grid, std::size_t axis) {
     for (const double w : widths) centres.push_back(face + w / 2), face += w;
     return centres;
 }
+
+/// How the face values of a patch lie in memory: rows along t1 (x where possible), ghost columns included, so
+/// that corners are filled too.
+struct FaceRows {
+    std::size_t axis, side, t1, t2, pitch, rows;
+    FaceRows(const Grid& grid, std::size_t patch)
+        : axis(patch / 2), side(patch % 2), t1(axis == 0 ? 1 : 0), t2(axis == 2 ? 1 : 2) {
+        const auto& axes = grid.rectilinear().axes;
+        pitch = axes[t1].cells() + 2 * exchange::ghosts + 2 * exchange::row_alignment;
+        rows = axes[t2].cells() + 2 * exchange::ghosts;
+    }
+    [[nodiscard]] std::size_t size() const { return pitch * rows; }
+};
 
 }  // namespace
 
@@ -55,80 +70,114 @@ std::array<bool, 3> periodic_axes(const Patches& patches) {
     return {is_periodic(patches[0]), is_periodic(patches[2]), is_periodic(patches[4])};
 }
 
+Vec3d Patch::velocity_at(const Vec3d& x, double t) const {
+    if (unsteady_velocity) return unsteady_velocity(x, t);
+    return velocity_profile ? velocity_profile(x) : Vec3d{0, 0, 0};
+}
+
+double Patch::density_at(const Vec3d& x, double t) const {
+    if (unsteady_density) return unsteady_density(x, t);
+    if (density_profile) return density_profile(x);
+    return density == DensityCondition::given ? 1.0 : 0.0;
+}
+
 Boundary::Boundary(const Patches& patches, const Grid& grid) { update(patches, grid); }
 
 void Boundary::update(const Patches& patches, const Grid& grid) {
     check(patches);
     patches_ = patches;
-    net_mass_flux_ = gross_mass_flux_ = 0;
-    constexpr std::size_t g = exchange::ghosts;
-    const std::array<std::vector<double>, 3> centres{ghosted_centres(grid, 0), ghosted_centres(grid, 1),
-                                                     ghosted_centres(grid, 2)};
     for (std::size_t p = 0; p < 6; ++p) {
-        const Patch& patch = patches[p];
-        const std::size_t axis = p / 2, side = p % 2, t1 = axis == 0 ? 1 : 0, t2 = axis == 2 ? 1 : 2;
-        view_.periodic[axis] = is_periodic(patch);
-        // Face values lie in rows along t1 (x where possible), ghost columns included, so that corners are
-        // filled too.
-        const std::size_t n1 = centres[t1].size(), n2 = centres[t2].size();
-        const std::size_t pitch = n1 + 2 * exchange::row_alignment;
-        std::array<std::vector<double>, 4> value;
-        value.fill(std::vector<double>(pitch * n2, 0.0));
-        const meshing::Axis& normal = grid.rectilinear().axes[axis];
-        const auto& widths = grid.ghosted_widths(static_cast<int>(axis));
-        const double default_density = patch.density == DensityCondition::given ? 1.0 : 0.0;
-        const auto &w1 = grid.ghosted_widths(static_cast<int>(t1)),
-                   &w2 = grid.ghosted_widths(static_cast<int>(t2));
-        for (std::size_t b = 0; b < n2; ++b)
-            for (std::size_t a = 0; a < n1; ++a) {
-                double x[3];
-                x[axis] = side == 0 ? normal.lower() : normal.upper();
-                x[t1] = centres[t1][a];
-                x[t2] = centres[t2][b];
-                const Vec3d at{x[0], x[1], x[2]};
-                const std::size_t i = b * pitch + a;
-                value[0][i] = patch.density_profile ? patch.density_profile(at) : default_density;
-                const Vec3d u = patch.velocity_profile ? patch.velocity_profile(at) : Vec3d{0, 0, 0};
-                value[1][i] = u.x, value[2][i] = u.y, value[3][i] = u.z;
-                const bool inside = a >= g && a + g < n1 && b >= g && b + g < n2;
-                if (inside && patch.velocity == VelocityCondition::given) {
-                    const double flux = (side == 0 ? -1 : 1) * value[1 + axis][i] * w1[a] * w2[b];
-                    net_mass_flux_ += flux;
-                    gross_mass_flux_ += std::abs(flux);
-                }
-            }
-        const std::size_t first = g * pitch + g;  // the face of cell (0, 0) of the patch
-        const auto rule = [&](const exchange::Buffer<double>& values, double sign, double near, double far) {
-            return GhostRule{sign, {near, far}, values.data() + first, pitch};
-        };
-        density_[p] = exchange::Buffer<double>(value[0]);
-        GhostRule& density = view_.rule[p][0];
-        density = GhostRule{};
-        if (patch.density == DensityCondition::given) density = rule(density_[p], -1, 2, 2);
-        if (patch.density == DensityCondition::given_gradient) {
-            // Mirror cells lie as far inside as ghosts lie outside; the gradient counts along the inward
-            // normal.
-            const std::size_t n = normal.cells(), border = side == 0 ? g : g + n - 1;
-            const std::size_t next = n < 2 ? border : (side == 0 ? border + 1 : border - 1);
-            const double near = widths[border];
-            const double far = n < 2 ? 2 * near : 2 * near + widths[next];
-            density = rule(density_[p], 1, -near, -far);
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-            velocity_[p][c] = exchange::Buffer<double>(value[1 + c]);
-            GhostRule& r = view_.rule[p][1 + c];
-            r = GhostRule{};
-            if (patch.velocity == VelocityCondition::given) r = rule(velocity_[p][c], -1, 2, 2);
-            if (patch.velocity == VelocityCondition::symmetry && c == axis) r.sign = -1;
-        }
-        view_.mass_flux[p] = MassFluxView{};
-        if (patch.velocity == VelocityCondition::given)
-            view_.mass_flux[p] = {velocity_[p][axis].data() + first, pitch};
-        if (patch.velocity == VelocityCondition::symmetry) {
-            mass_[p] = exchange::Buffer<double>(pitch * n2);
-            view_.mass_flux[p] = {mass_[p].data() + first, pitch};
-        }
+        evaluate(p, 0, grid);
+        set_rules(p, grid);
     }
+}
+
+void Boundary::set_time(double t, const Grid& grid) {
+    for (std::size_t p = 0; p < 6; ++p)
+        if (patches_[p].unsteady()) evaluate(p, t, grid);
+}
+
+bool Boundary::unsteady() const {
+    return std::any_of(patches_.begin(), patches_.end(), [](const Patch& p) { return p.unsteady(); });
+}
+
+void Boundary::evaluate(std::size_t p, double t, const Grid& grid) {
+    const Patch& patch = patches_[p];
+    const FaceRows rows(grid, p);
+    const std::size_t axis = rows.axis, t1 = rows.t1, t2 = rows.t2;
+    const auto c1 = ghosted_centres(grid, t1), c2 = ghosted_centres(grid, t2);
+    const auto &w1 = grid.ghosted_widths(static_cast<int>(t1)),
+               &w2 = grid.ghosted_widths(static_cast<int>(t2));
+    const meshing::Axis& normal = grid.rectilinear().axes[axis];
+    std::array<std::vector<double>, 4> value;
+    value.fill(std::vector<double>(rows.size(), 0.0));
+    net_mass_flux_[p] = gross_mass_flux_[p] = 0;
+    constexpr std::size_t g = exchange::ghosts;
+    for (std::size_t b = 0; b < c2.size(); ++b)
+        for (std::size_t a = 0; a < c1.size(); ++a) {
+            double x[3];
+            x[axis] = rows.side == 0 ? normal.lower() : normal.upper();
+            x[t1] = c1[a];
+            x[t2] = c2[b];
+            const Vec3d at{x[0], x[1], x[2]}, u = patch.velocity_at(at, t);
+            const std::size_t i = b * rows.pitch + a;
+            value[0][i] = patch.density_at(at, t);
+            value[1][i] = u.x, value[2][i] = u.y, value[3][i] = u.z;
+            const bool inside = a >= g && a + g < c1.size() && b >= g && b + g < c2.size();
+            if (inside && patch.velocity == VelocityCondition::given) {
+                const double flux = (rows.side == 0 ? -1 : 1) * value[1 + axis][i] * w1[a] * w2[b];
+                net_mass_flux_[p] += flux;
+                gross_mass_flux_[p] += std::abs(flux);
+            }
+        }
+    const auto keep = [](exchange::Buffer<double>& buffer, const std::vector<double>& values) {
+        if (buffer.size() == values.size())  // rules and kernels hold its address
+            buffer.assign(values);
+        else
+            buffer = exchange::Buffer<double>(values);
+    };
+    keep(density_[p], value[0]);
+    for (std::size_t c = 0; c < 3; ++c) keep(velocity_[p][c], value[1 + c]);
+}
+
+void Boundary::set_rules(std::size_t p, const Grid& grid) {
+    const Patch& patch = patches_[p];
+    const FaceRows rows(grid, p);
+    view_.periodic[rows.axis] = is_periodic(patch);
+    const std::size_t first = exchange::ghosts * rows.pitch + exchange::ghosts;  // the face of cell (0, 0)
+    const auto rule = [&](const exchange::Buffer<double>& values, double sign, double near, double far) {
+        return GhostRule{sign, {near, far}, values.data() + first, rows.pitch};
+    };
+    GhostRule& density = view_.rule[p][0];
+    density = GhostRule{};
+    if (patch.density == DensityCondition::given) density = rule(density_[p], -1, 2, 2);
+    if (patch.density == DensityCondition::given_gradient) {
+        // Mirror cells lie as far inside as ghosts lie outside; the gradient counts along the inward normal.
+        const auto& widths = grid.ghosted_widths(static_cast<int>(rows.axis));
+        const std::size_t n = grid.rectilinear().axes[rows.axis].cells();
+        const std::size_t border = rows.side == 0 ? exchange::ghosts : exchange::ghosts + n - 1;
+        const std::size_t next = n < 2 ? border : (rows.side == 0 ? border + 1 : border - 1);
+        const double near = widths[border];
+        const double far = n < 2 ? 2 * near : 2 * near + widths[next];
+        density = rule(density_[p], 1, -near, -far);
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        GhostRule& r = view_.rule[p][1 + c];
+        r = GhostRule{};
+        if (patch.velocity == VelocityCondition::given) r = rule(velocity_[p][c], -1, 2, 2);
+        if (patch.velocity == VelocityCondition::symmetry && c == rows.axis) r.sign = -1;
+    }
+    view_.mass_flux[p] = MassFluxView{};
+    if (patch.velocity == VelocityCondition::given)
+        view_.mass_flux[p] = {velocity_[p][rows.axis].data() + first, rows.pitch};
+    if (patch.velocity == VelocityCondition::symmetry) {
+        mass_[p] = exchange::Buffer<double>(rows.size());
+        view_.mass_flux[p] = {mass_[p].data() + first, rows.pitch};
+    }
+}
+
+double Boundary::net_mass_flux() const {
+    return std::accumulate(net_mass_flux_.begin(), net_mass_flux_.end(), 0.0);
 }
 
 bool Boundary::closed() const {
@@ -138,11 +187,13 @@ bool Boundary::closed() const {
 }
 
 void Boundary::check_mass_balance() const {
-    if (!closed() || std::abs(net_mass_flux_) <= 1e-10 * gross_mass_flux_) return;
+    const double net = net_mass_flux();
+    const double gross = std::accumulate(gross_mass_flux_.begin(), gross_mass_flux_.end(), 0.0);
+    if (!closed() || std::abs(net) <= 1e-10 * gross) return;
     throw InputError(
         "the boundary",
         fmt::format("the given velocities bring {:.3g} % more fluid in than out, and no side is open",
-                    -100 * net_mass_flux_ / gross_mass_flux_),
+                    -100 * net / gross),
         "balance the velocities, or let one side have a zero-gradient velocity with a given density or "
         "pressure");
 }

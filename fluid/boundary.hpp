@@ -36,6 +36,16 @@ struct Patch {
     std::function<Vec3d(const Vec3d&)> velocity_profile;
     /// Density, or its gradient along the inward normal, on the patch; empty means 1 (value) or 0 (gradient).
     std::function<double(const Vec3d&)> density_profile;
+    /// The same as functions of place and time, where the condition changes in time; they take precedence.
+    std::function<Vec3d(const Vec3d&, double)> unsteady_velocity = {};
+    std::function<double(const Vec3d&, double)> unsteady_density = {};
+
+    /// Whether the condition changes in time.
+    [[nodiscard]] bool unsteady() const { return unsteady_velocity || unsteady_density; }
+    /// Velocity at a place of the patch and time t.
+    [[nodiscard]] Vec3d velocity_at(const Vec3d& x, double t) const;
+    /// Density there, or its gradient along the inward normal.
+    [[nodiscard]] double density_at(const Vec3d& x, double t) const;
 };
 
 /// Patches in the order x-, x+, y-, y+, z-, z+.
@@ -87,8 +97,12 @@ class Boundary {
   public:
     Boundary(const Patches& patches, const Grid& grid);
 
-    /// Re-evaluates all profiles, for conditions that change with time.
+    /// Replaces the conditions; those that change in time are evaluated at t = 0.
     void update(const Patches& patches, const Grid& grid);
+    /// Re-evaluates the profiles that change in time.
+    void set_time(double t, const Grid& grid);
+    /// Whether any patch changes in time.
+    [[nodiscard]] bool unsteady() const;
 
     /// Fills the ghost cells of density and velocity.
     void fill(const GridView& grid, const StateView& state) const;
@@ -101,18 +115,23 @@ class Boundary {
     [[nodiscard]] const Patches& patches() const { return patches_; }
     /// True when no patch lets mass through freely: all are periodic, symmetric or have a given velocity.
     [[nodiscard]] bool closed() const;
-    /// Throws InputError when the domain is closed but the given velocities do not balance, so that its mass
-    /// would grow or shrink for ever.
+    /// Throws InputError when the domain is closed but the given velocities do not balance (at the time last
+    /// set), so that its mass would grow or shrink for ever.
     void check_mass_balance() const;
     /// Sum of the prescribed mass fluxes, outward, over all patches (density 1).
-    [[nodiscard]] double net_mass_flux() const { return net_mass_flux_; }
+    [[nodiscard]] double net_mass_flux() const;
 
   private:
+    /// Profiles of one patch at time t into its buffers.
+    void evaluate(std::size_t patch, double t, const Grid& grid);
+    /// Ghost rules and prescribed mass fluxes of one patch, which point into its buffers.
+    void set_rules(std::size_t patch, const Grid& grid);
+
     Patches patches_;
     std::array<exchange::Buffer<double>, 6> density_, mass_;
     std::array<std::array<exchange::Buffer<double>, 3>, 6> velocity_;
     BoundaryView view_;
-    double net_mass_flux_ = 0, gross_mass_flux_ = 0;
+    std::array<double, 6> net_mass_flux_{}, gross_mass_flux_{};
 };
 
 }  // namespace hemoflux::fluid

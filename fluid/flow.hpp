@@ -48,9 +48,12 @@ class Flow {
     /// Sets density and velocity at every cell centre.
     void initialise(const std::function<FlowPoint(const Vec3d&)>& flow);
 
+    /// The time at which the state stands, 0 at first. Boundary conditions and forces that change in time are taken at
+    /// this time by evaluate(), and at the times of the stages by step().
+    virtual void set_time(double t) = 0;
     /// Evaluates R(Q) = dQ/dt.
     virtual void evaluate() = 0;
-    /// One time step of the solver's scheme.
+    /// One time step of the solver's scheme; the time moves on by dt.
     virtual void step(double dt) = 0;
     /// Residual evaluations since construction.
     [[nodiscard]] virtual std::size_t evaluations() const = 0;

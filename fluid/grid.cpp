@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exchange/error.hpp"
+
 namespace hemoflux::fluid {
 namespace {
 
@@ -29,8 +31,14 @@ std::vector<double> with_ghosts(const std::vector<double>& widths, bool periodic
 
 }  // namespace
 
-Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, double delta_max)
+Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, double delta_max,
+           GradientMethod gradient)
     : rectilinear_(grid), periodic_(periodic), uniform_(true) {
+    if (gradient == GradientMethod::hybrid)
+        throw InputError(
+            "hybrid gradients on a rectilinear grid",
+            "their weights depend on the shape of each cell, the differences here on one axis alone",
+            "use least-squares or green-gauss");
     view_.layout = exchange::Layout(grid.axes[0].cells(), grid.axes[1].cells(), grid.axes[2].cells());
     constexpr double unlimited = 1e300;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -58,8 +66,9 @@ Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, d
             inv_normal[at] = 1 / normal[at];
             if (m == 0) continue;
             const double s_minus = (dx[m] + dx[m - 1]) / 2;
-            plus[at] = s_minus / (s_plus * (s_plus + s_minus));
-            minus[at] = s_plus / (s_minus * (s_plus + s_minus));
+            const bool least_squares = gradient == GradientMethod::least_squares;
+            plus[at] = least_squares ? s_minus / (s_plus * (s_plus + s_minus)) : 1 / (2 * s_plus);
+            minus[at] = least_squares ? s_plus / (s_minus * (s_plus + s_minus)) : 1 / (2 * s_minus);
         }
         AxisView& v = view_.axis[a];
         const double** slots[9] = {&v.plus,   &v.minus,      &v.half,    &v.inverse,    &v.weight_left,

@@ -2,9 +2,10 @@
 /// streaming distances.
 ///
 /// Gradients reduce to 1-D differences on each axis (A.4 on a rectilinear grid):
-///   dphi/dx_i = plus_i (phi_{i+1} - phi_i) + minus_i (phi_i - phi_{i-1}),  exact for quadratics:
-///   plus_i = s_- / (s_+ (s_+ + s_-)),  minus_i = s_+ / (s_- (s_+ + s_-)),  s_+- the distances of the cell
-///   centres.
+///   dphi/dx_i = plus_i (phi_{i+1} - phi_i) + minus_i (phi_i - phi_{i-1}),  s_+- the distances of the cell centres.
+///   weighted least squares (A.33-A.35):  plus_i = s_- / (s_+ (s_+ + s_-)),  minus_i = s_+ / (s_- (s_+ + s_-)),
+///                                        exact for quadratics
+///   Green-Gauss, linear face values:     plus_i = 1 / (2 s_+),  minus_i = 1 / (2 s_-),  exact for linear fields
 /// Streaming distance of a face: the smallest distance from its centre to the two cells' other faces, so that
 /// every lattice node lies inside the two cells; a direction one cell thick does not limit it. At most 3 nu /
 /// (gamma tau_floor), which keeps tau - 1/2 >= tau_floor.
@@ -15,6 +16,7 @@
 
 #include "exchange/buffer.hpp"
 #include "exchange/layout.hpp"
+#include "fluid/gradient_method.hpp"
 #include "meshing/rectilinear.hpp"
 
 namespace hemoflux::fluid {
@@ -44,7 +46,9 @@ class Grid {
   public:
     /// periodic: axes whose ghost cells repeat the other end (else they mirror the border cells).
     /// delta_max: largest streaming distance allowed, in the grid's length unit.
-    Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, double delta_max = 1e300);
+    /// Throws InputError for the hybrid gradient, whose weights are no product of axes.
+    Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, double delta_max = 1e300,
+         GradientMethod gradient = GradientMethod::least_squares);
 
     [[nodiscard]] const GridView& view() const { return view_; }
     [[nodiscard]] const meshing::RectilinearGrid& rectilinear() const { return rectilinear_; }

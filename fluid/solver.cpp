@@ -29,7 +29,7 @@ const SolverOptions& checked(const SolverOptions& o) {
 
 Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, const SolverOptions& options)
     : options_(checked(options)),
-      grid_(grid, (check(patches), periodic_axes(patches)), delta_limit(options)),
+      grid_(grid, (check(patches), periodic_axes(patches)), delta_limit(options), options.gradient),
       boundary_(patches, grid_),
       state_(grid_.view().layout, options.with_force, options.with_viscosity, options.nu),
       residual_(grid_.view().layout, false, false, 0) {
@@ -78,7 +78,12 @@ void Solver::set_values(int component, const std::vector<double>& values) {
 
 FlowParameters Solver::flow_parameters() const {
     const auto& f = options_.uniform_force;
-    return {options_.nu, options_.gamma, {f[0], f[1], f[2]}, options_.with_force, options_.with_viscosity};
+    const Vec3d wave = options_.oscillating_force.at(stage_time_);
+    return {options_.nu,
+            options_.gamma,
+            {f[0] + wave.x, f[1] + wave.y, f[2] + wave.z},
+            options_.with_force,
+            options_.with_viscosity};
 }
 
 ResidualView Solver::residual_view(const State& fields) const {
@@ -93,25 +98,43 @@ void Solver::evaluate() {
     ++evaluations_;
 }
 
+void Solver::set_time(double t) {
+    time_ = t;
+    if (t == stage_time_) return;
+    stage_time_ = t;
+    if (boundary_.unsteady()) boundary_.set_time(t, grid_);
+}
+
+void Solver::evaluate_at(double t) {
+    set_time(t);
+    evaluate();
+}
+
 void Solver::step(double dt) {
+    const double start = time_;
     if (options_.with_force) boundary_.fill_force(grid_.view(), state_.view());
     if (options_.with_viscosity) boundary_.fill_viscosity(grid_.view(), state_.view());
     const exchange::Layout& layout = grid_.view().layout;
     const ResidualView r = residual_view(residual_);
     if (options_.scheme == Scheme::euler) {
-        evaluate();
+        evaluate_at(start);
         update(layout, state_.view(), r, r, {dt, 0, false, false, false}, state_.view());
-        return;
-    }
-    if (options_.scheme == Scheme::factored) {
+    } else if (options_.scheme == Scheme::factored) {
         if (!factored_ || factored_->dt() != dt)
             factored_ =
                 std::make_unique<Factored>(grid_, boundary_, options_.largest_nu / options_.gamma, dt);
-        evaluate();
+        evaluate_at(start + dt);
         factored_->solve(r);
         update_factored(layout, r, dt, state_.view());
-        return;
+    } else {
+        step_rk4(start, dt);
     }
+    set_time(start + dt);
+}
+
+void Solver::step_rk4(double start, double dt) {
+    const exchange::Layout& layout = grid_.view().layout;
+    const ResidualView r = residual_view(residual_);
     if (!base_) {
         base_ = std::make_unique<State>(layout, false, false, 0);
         sum_ = std::make_unique<State>(layout, false, false, 0);
@@ -119,13 +142,14 @@ void Solver::step(double dt) {
     for (int c = 0; c < 4; ++c)
         exchange::copy_on_device(base_->view().q[c], state_.view().q[c], layout.size * sizeof(double));
     const ResidualView sum = residual_view(*sum_);
+    const double time[4] = {start, start + dt / 2, start + dt / 2, start + dt};
     const double advance[3] = {dt / 2, dt / 2, dt}, weight[4] = {1, 2, 2, 1};
     for (int stage = 0; stage < 3; ++stage) {
-        evaluate();
+        evaluate_at(time[stage]);
         update(layout, base_->view(), r, sum, {advance[stage], weight[stage], true, stage == 0, false},
                state_.view());
     }
-    evaluate();
+    evaluate_at(time[3]);
     update(layout, base_->view(), r, sum, {dt / 6, weight[3], false, false, true}, state_.view());
 }
 

@@ -10,6 +10,7 @@
 #include "fluid/factored.hpp"
 #include "fluid/flow.hpp"
 #include "fluid/grid.hpp"
+#include "fluid/oscillating_force.hpp"
 #include "fluid/residual.hpp"
 #include "fluid/state.hpp"
 #include "fluid/time_step.hpp"
@@ -24,9 +25,11 @@ struct SolverOptions {
     bool with_viscosity = false;          ///< viscosity varies in space
     bool with_force = false;              ///< a body force acts
     double uniform_force[3] = {0, 0, 0};  ///< body force per volume everywhere, added to the field
+    OscillatingForce oscillating_force;   ///< added as well, acts with with_force
     double gamma = 1;      ///< preconditioning parameter (4.2); other than 1 only for steady flow
     double tau_floor = 0;  ///< smallest tau - 1/2 on any face; 0: no floor
     Scheme scheme = Scheme::rk4;
+    GradientMethod gradient = GradientMethod::least_squares;
 };
 
 /// The flow solver on a rectilinear grid; cells are numbered x fastest.
@@ -42,8 +45,10 @@ class Solver final : public Flow {
     [[nodiscard]] std::vector<double> values(int component) const override;
     void set_values(int component, const std::vector<double>& values) override;
 
-    /// One time step of the chosen scheme. Force and viscosity, if used, are taken as they stand in their
-    /// fields.
+    void set_time(double t) override;
+    [[nodiscard]] double time() const { return time_; }
+    /// Force and viscosity, if used, are taken as they stand in their fields. The factored scheme takes what changes
+    /// in time at the end of the step.
     void step(double dt) override;
 
     /// Evaluates R(Q) into residual().
@@ -68,6 +73,9 @@ class Solver final : public Flow {
 
   private:
     [[nodiscard]] FlowParameters flow_parameters() const;
+    /// Takes what changes in time at a stage's time.
+    void evaluate_at(double t);
+    void step_rk4(double start, double dt);
     [[nodiscard]] ResidualView residual_view(const State& fields) const;
 
     SolverOptions options_;
@@ -77,6 +85,7 @@ class Solver final : public Flow {
     std::unique_ptr<State> base_, sum_;
     std::unique_ptr<Factored> factored_;
     std::size_t evaluations_ = 0;
+    double time_ = 0, stage_time_ = 0;
 };
 
 }  // namespace hemoflux::fluid
