@@ -105,6 +105,25 @@ TEST(Boundary, NetMassFluxOfGivenVelocities) {
     EXPECT_NO_THROW(Box(p).boundary.check_mass_balance());
 }
 
+TEST(Boundary, ConditionsThatChangeInTime) {
+    Patches p;
+    p.fill(wall_patch());
+    p[3].unsteady_velocity = [](const Vec3d& x, double t) { return Vec3d{x.x + t, 0, 0}; };
+    p[3].density = DensityCondition::given;
+    p[3].unsteady_density = [](const Vec3d&, double t) { return 1 + 0.1 * t; };
+    Box s(p);
+    EXPECT_TRUE(s.boundary.unsteady());
+    s.set(0, [](const Vec3d&) { return 1.0; });
+    for (const double t : {0.0, 0.5}) {
+        s.boundary.set_time(t, s.grid);
+        s.boundary.fill(s.grid.view(), s.state.view());
+        EXPECT_NEAR(s.at(1, 1, 4, 1) + s.at(1, 1, 3, 1), 2 * (0.3 + t), 1e-15) << t;
+        EXPECT_NEAR(s.at(0, 1, 4, 1), 1 + 0.2 * t, 1e-15) << t;
+    }
+    p[3] = wall_patch();
+    EXPECT_FALSE(Box(p).boundary.unsteady());
+}
+
 TEST(Boundary, PeriodicSidesComeInPairs) {
     Patches p;
     p.fill(wall_patch());
