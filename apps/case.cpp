@@ -81,23 +81,25 @@ CellInput read_cell(const Section& in) {
                      ? CellShape::file
                      : chosen<CellShape>(in.text("shape"), {"discocyte", "sphere", "spheroid", "evans-fung"});
     cell.reduced_volume = in.number("reduced_volume");
-    cell.reference =
-        chosen<MembraneReference>(in.text("reference"), {"stress-free", "uniform", "spheroid", "file"});
+    cell.route = chosen<membrane::Route>(in.text("route"), {"evans-fung", "deflation"});
+    cell.reference = chosen<MembraneReference>(
+        in.text("reference"),
+        {"stress-free", "uniform", "coarse-grained", "spheroid", "file", "stored", "auto"});
     cell.reference_file = in.text("reference_file");
     cell.reference_reduced_volume = in.number("reference_reduced_volume");
     cell.shear_modulus = in.number("shear_modulus");
     cell.spring_length = in.maybe("spring_length");
-    cell.spring_ratio = in.number("spring_ratio");
+    cell.spring_ratio = in.maybe("spring_ratio");
     cell.volume_modulus = in.number("volume_modulus");
     cell.area_modulus = in.number("area_modulus");
     cell.local_area_modulus = in.number("local_area_modulus");
     cell.bending_modulus = in.number("bending_modulus");
     cell.ade_modulus = in.number("ade_modulus");
-    cell.spontaneous_curvature = in.number("spontaneous_curvature");
-    cell.relaxed_area_difference = in.number("relaxed_area_difference");
+    cell.spontaneous_curvature = in.maybe("spontaneous_curvature");
+    cell.relaxed_area_difference = in.maybe("relaxed_area_difference");
     cell.membrane_viscosity = in.number("membrane_viscosity");
-    cell.area = in.number("area");
-    cell.volume = in.number("volume");
+    cell.area = in.maybe("area");
+    cell.volume = in.maybe("volume");
     cell.cytosol_viscosity = in.number("cytosol_viscosity");
     cell.position = in.vector("position");
     cell.axis = in.vector("axis");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "membrane/shapes.hpp"
 #include "meshing/rectilinear.hpp"
 
 namespace hemoflux::apps {
@@ -19,7 +20,7 @@ enum class AxisKind { uniform, plateau, chebyshev, given };
 enum class VelocityCondition { periodic, shear, no_slip, zero_gradient, symmetry, vector };
 enum class DensityCondition { zero_gradient, density, pressure };
 enum class CellShape { discocyte, sphere, spheroid, evans_fung, file };
-enum class MembraneReference { stress_free, uniform, spheroid, file };
+enum class MembraneReference { stress_free, uniform, coarse_grained, spheroid, file, stored, automatic };
 enum class Kernel { lagrange, phi2, phi3, phi4 };
 enum class TimeScheme { euler, rk4, factored };
 enum class MembraneTask { relax, stretch };
@@ -58,27 +59,28 @@ struct CellInput {
     std::string mesh;  ///< "icosphere" or the path of a sphere mesh; unused when shape is file
     int nodes = 0;     ///< of the icosphere
     CellShape shape = CellShape::discocyte;
-    std::string file;           ///< surface for CellShape::file
-    double reduced_volume = 0;  ///< of CellShape::spheroid
-    MembraneReference reference = MembraneReference::uniform;
+    std::string file;                                     ///< surface for CellShape::file
+    double reduced_volume = 0;                            ///< of CellShape::spheroid
+    membrane::Route route = membrane::Route::evans_fung;  ///< of CellShape::discocyte
+    MembraneReference reference = MembraneReference::automatic;
     std::string reference_file;
     double reference_reduced_volume = 0;
-    double shear_modulus = 0;             ///< K_S, N/m
-    std::optional<double> spring_length;  ///< L_s0, um; empty: 1.16 mean edges of the relaxed disc
-    double spring_ratio = 0;              ///< r
-    double volume_modulus = 0;            ///< K_V, Pa
-    double area_modulus = 0;              ///< K_A, N/m
-    double local_area_modulus = 0;        ///< K_A,k, N/m
-    double bending_modulus = 0;           ///< K_B, J
-    double ade_modulus = 0;               ///< K_ADE, J
-    double spontaneous_curvature = 0;     ///< c0 = C_0 R0
-    double relaxed_area_difference = 0;   ///< M0 / (8 pi R0)
-    double membrane_viscosity = 0;        ///< Pa s m
-    double area = 0;                      ///< A0, um^2
-    double volume = 0;                    ///< V0, um^3
-    double cytosol_viscosity = 0;         ///< Pa s
-    Triple position{};                    ///< um
-    Triple axis{};                        ///< unit vector
+    double shear_modulus = 0;                       ///< K_S, N/m
+    std::optional<double> spring_length;            ///< L_s0, um; empty: 1.16 mean edges of the relaxed disc
+    std::optional<double> spring_ratio;             ///< r
+    double volume_modulus = 0;                      ///< K_V, Pa
+    double area_modulus = 0;                        ///< K_A, N/m
+    double local_area_modulus = 0;                  ///< K_A,k, N/m
+    double bending_modulus = 0;                     ///< K_B, J
+    double ade_modulus = 0;                         ///< K_ADE, J
+    std::optional<double> spontaneous_curvature;    ///< c0 = C_0 R0; empty as the next ones: see rest_state()
+    std::optional<double> relaxed_area_difference;  ///< M0 / (8 pi R0)
+    double membrane_viscosity = 0;                  ///< Pa s m
+    std::optional<double> area;                     ///< A0, um^2
+    std::optional<double> volume;                   ///< V0, um^3
+    double cytosol_viscosity = 0;                   ///< Pa s
+    Triple position{};                              ///< um
+    Triple axis{};                                  ///< unit vector
     bool operator==(const CellInput&) const = default;
 };
 

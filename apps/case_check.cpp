@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "apps/cell_builder.hpp"
+#include "apps/cell_file.hpp"
 #include "apps/cell_surface.hpp"
 #include "exchange/error.hpp"
 
@@ -60,6 +62,9 @@ std::vector<std::string> check_case(const Case& c) {
                                  "its triangles are not those of the cell's mesh",
                                  "Give a surface with the same triangles, vertices in the same order");
             }
+        }
+        if (takes_stored_reference(c.cells[i])) {
+            static_cast<void>(read_reference(c.cells[i].file, membrane::Topology(surface)));
         }
         if (!flow) {
             continue;

@@ -191,6 +191,10 @@ void check_cells(const toml::table& values, const std::string& name) {
             refuse(name, fmt::format("cell.{} has reference = \"file\"", c), "no reference_file is given",
                    "Add reference_file = \"rest.vtp\"");
         }
+        if (cells[c].text("reference") == "stored" && !cells[c].has("file")) {
+            refuse(name, fmt::format("cell.{} has reference = \"stored\"", c), "no file is given",
+                   "Add file = \"rbc.vtp\", as hemoflux mesh rbc writes it");
+        }
     }
 }
 

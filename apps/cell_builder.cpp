@@ -1,11 +1,7 @@
 #include "apps/cell_builder.hpp"
 
-#include <cmath>
-
+#include "apps/cell_file.hpp"
 #include "apps/cell_surface.hpp"
-#include "membrane/batch.hpp"
-#include "membrane/diagnostics.hpp"
-#include "meshing/spheroid.hpp"
 
 namespace hemoflux::apps {
 namespace {
@@ -16,29 +12,39 @@ constexpr double pressure_unit = 10;              // Pa
 constexpr double energy_unit = 1e-17;             // J
 constexpr double surface_viscosity_unit = 1e-10;  // Pa s m
 
-/// Fills in what the input says about a reference whose rest lengths and areas are known: A0, V0, r, C_0 =
-/// c0/R0 and M0 in units of 8 pi R0.
-membrane::Reference completed(membrane::Reference reference, const CellInput& cell) {
-    const double radius = std::sqrt(cell.area / (4 * M_PI));  // R0 (6.43)
-    reference.area = cell.area;
-    reference.volume = cell.volume;
-    reference.stretch_ratio = cell.spring_ratio;
-    reference.curvature = cell.spontaneous_curvature / radius;
-    reference.total_curvature = cell.relaxed_area_difference * 8 * M_PI * radius;
-    return reference;
+/// What "auto" means for this cell.
+MembraneReference reference_of(const CellInput& cell) {
+    if (cell.reference != MembraneReference::automatic) return cell.reference;
+    if (cell.shape != CellShape::file) return MembraneReference::uniform;
+    return has_reference(cell.file) ? MembraneReference::stored : MembraneReference::stress_free;
 }
 
-/// The vertices of the spheroid of reference = "spheroid".
-std::vector<Vec3d> reference_spheroid(const CellInput& cell) {
-    const meshing::SpheroidAxes axes = meshing::oblate_axes(cell.area, cell.reference_reduced_volume);
-    return meshing::spheroid(sphere_mesh(cell), axes).vertices;
+membrane::ReferenceKind kind_of(MembraneReference reference) {
+    switch (reference) {
+        case MembraneReference::uniform:
+            return membrane::ReferenceKind::uniform_length;
+        case MembraneReference::coarse_grained:
+            return membrane::ReferenceKind::coarse_grained;
+        case MembraneReference::spheroid:
+            return membrane::ReferenceKind::spheroid;
+        case MembraneReference::file:
+            return membrane::ReferenceKind::given;
+        default:
+            return membrane::ReferenceKind::stress_free;
+    }
 }
 
-std::vector<Vec3d> reference_file(const CellInput& cell) {
-    CellInput file = cell;
-    file.shape = CellShape::file;
-    file.file = cell.reference_file;
-    return start_shape(file).vertices;
+/// The stored reference, but for what the input says otherwise.
+membrane::Reference stored_reference(const CellInput& cell, const membrane::Topology& topology) {
+    membrane::Reference r = read_reference(cell.file, topology);
+    r.area = cell.area.value_or(r.area);
+    r.volume = cell.volume.value_or(r.volume);
+    r.stretch_ratio = cell.spring_ratio.value_or(r.stretch_ratio);
+    const double radius = membrane::RestState{.area = r.area}.radius();
+    if (cell.spontaneous_curvature) r.curvature = *cell.spontaneous_curvature / radius;
+    if (cell.relaxed_area_difference)
+        r.total_curvature = *cell.relaxed_area_difference * 8 * membrane::red_blood_cell::pi * radius;
+    return r;
 }
 
 }  // namespace
@@ -52,49 +58,30 @@ membrane::Parameters membrane_parameters(const CellInput& cell) {
     return p;
 }
 
-membrane::Cell build_cell(const CellInput& cell, const membrane::RelaxOptions& options) {
-    const meshing::SurfaceMesh start = start_shape(cell);
-    membrane::Cell result;
-    result.topology = std::make_shared<const membrane::Topology>(start);
-    result.parameters = membrane_parameters(cell);
-    const membrane::Topology& topology = *result.topology;
-    const auto from_shape = [&](const std::vector<Vec3d>& shape) {
-        return completed(membrane::reference_from_shape(topology, shape), cell);
-    };
+bool takes_stored_reference(const CellInput& cell) { return reference_of(cell) == MembraneReference::stored; }
 
-    std::vector<Vec3d> rest = start.vertices;
-    if (cell.shape == CellShape::discocyte) {
-        membrane::Batch batch(result.topology, result.parameters, from_shape(reference_spheroid(cell)));
-        batch.set_positions(0, rest);
-        result.relaxation = membrane::relax(batch, options);
-        rest = batch.positions(0);
+membrane::ShapeOptions shape_options(const CellInput& cell, const membrane::RelaxOptions& relaxation) {
+    membrane::ShapeOptions options{.reference = kind_of(reference_of(cell)),
+                                   .parameters = membrane_parameters(cell),
+                                   .rest = rest_state(cell),
+                                   .route = cell.route,
+                                   .reduced_volume = cell.reference_reduced_volume,
+                                   .spring_length = cell.spring_length.value_or(0),
+                                   .relaxation = relaxation};
+    if (options.reference == membrane::ReferenceKind::given) {
+        CellInput file = cell;
+        file.shape = CellShape::file;
+        file.file = cell.reference_file;
+        options.reference_shape = start_shape(file).vertices;
     }
-    switch (cell.reference) {
-        case MembraneReference::stress_free:
-            result.reference = from_shape(rest);
-            break;
-        case MembraneReference::uniform:
-            result.reference = completed(
-                membrane::uniform_length_reference(topology, rest, cell.spring_length.value_or(0)), cell);
-            break;
-        case MembraneReference::spheroid:
-            result.reference = from_shape(reference_spheroid(cell));
-            break;
-        case MembraneReference::file:
-            result.reference = from_shape(reference_file(cell));
-            break;
-    }
-    if (cell.shape == CellShape::discocyte) {
-        membrane::Batch batch(result.topology, result.parameters, result.reference);
-        batch.set_positions(0, rest);
-        result.relaxation = membrane::relax(batch, options);
-        rest = batch.positions(0);
-    }
-    const Vec3d centroid = membrane::shape_moments(topology.triangles(), rest).centroid;
-    for (Vec3d& r : rest) {
-        r -= centroid;
-    }
-    result.positions = std::move(rest);
+    return options;
+}
+
+membrane::Cell build_cell(const CellInput& cell, const membrane::RelaxOptions& relaxation) {
+    const membrane::ShapeOptions options = shape_options(cell, relaxation);
+    if (cell.shape == CellShape::discocyte) return membrane::make_discocyte(sphere_mesh(cell), options);
+    membrane::Cell result = membrane::make_cell(start_shape(cell), options);
+    if (takes_stored_reference(cell)) result.reference = stored_reference(cell, *result.topology);
     return result;
 }
 

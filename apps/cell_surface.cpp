@@ -60,22 +60,39 @@ meshing::SurfaceMesh sphere_mesh(const CellInput& cell) {
     return mesh;
 }
 
+membrane::RestState rest_state(const CellInput& cell) {
+    membrane::RestState rest;
+    if (cell.shape == CellShape::file && !(cell.area && cell.volume)) {
+        const meshing::SurfaceMesh mesh = checked_file(cell.file);
+        rest.area = cell.area.value_or(meshing::area(mesh));
+        rest.volume = cell.volume.value_or(meshing::volume(mesh));
+    } else {
+        const double area = cell.area.value_or(rest.area);
+        rest.volume = cell.volume.value_or(rest.volume * std::pow(area / rest.area, 1.5));
+        rest.area = area;
+    }
+    rest.reduced_curvature = cell.spontaneous_curvature.value_or(rest.reduced_curvature);
+    rest.area_difference = cell.relaxed_area_difference.value_or(rest.area_difference);
+    rest.stretch_ratio = cell.spring_ratio.value_or(rest.stretch_ratio);
+    return rest;
+}
+
 meshing::SurfaceMesh start_shape(const CellInput& cell) {
     if (cell.shape == CellShape::file) {
         return checked_file(cell.file);
     }
     const meshing::SurfaceMesh sphere = sphere_mesh(cell);
-    const double radius = std::sqrt(cell.area / (4 * M_PI));
+    const membrane::RestState rest = rest_state(cell);
     switch (cell.shape) {
         case CellShape::sphere:
-            return meshing::spheroid(sphere, radius, radius, radius);
+            return meshing::spheroid(sphere, rest.radius(), rest.radius(), rest.radius());
         case CellShape::spheroid:
-            return meshing::spheroid(sphere, meshing::oblate_axes(cell.area, cell.reduced_volume));
+            return meshing::spheroid(sphere, meshing::oblate_axes(rest.area, cell.reduced_volume));
         default:
             break;
     }
-    constexpr double disc_area = 134.1;  // of the Evans-Fung disc with its standard diameter, um^2
-    return meshing::evans_fung(sphere, meshing::evans_fung_diameter * std::sqrt(cell.area / disc_area));
+    return meshing::evans_fung(
+        sphere, meshing::evans_fung_diameter * std::sqrt(rest.area / meshing::evans_fung_area));
 }
 
 void place(meshing::SurfaceMesh& mesh, const Triple& axis, const Triple& position) {

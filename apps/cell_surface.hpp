@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/case.hpp"
+#include "membrane/reference.hpp"
 #include "meshing/surface_mesh.hpp"
 
 namespace hemoflux::apps {
@@ -15,6 +16,11 @@ meshing::SurfaceMesh sphere_mesh(const CellInput& cell);
 /// Evans-Fung disc of area A0, from which it is relaxed; for CellShape::file the checked surface, its
 /// centroid moved to the origin.
 meshing::SurfaceMesh start_shape(const CellInput& cell);
+
+/// Rest values of the whole cell. Where the input leaves them to the program: A0 and V0 of a file are those of
+/// its surface, of other shapes 134 um^2 and the volume of a red blood cell's reduced volume at that area; c0
+/// = 6, M0 = 8 pi R0, r = 2.6. Throws as start_shape().
+membrane::RestState rest_state(const CellInput& cell);
 
 /// Turns the z axis onto `axis` (shortest way) and moves the origin to `position` (um).
 void place(meshing::SurfaceMesh& mesh, const Triple& axis, const Triple& position);

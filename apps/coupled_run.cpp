@@ -50,7 +50,7 @@ class CoupledRun {
   private:
     void begin() {
         files_.log().info(fmt::format("{}: preparing the cells", case_.title));
-        system_.add_cells(case_);
+        system_.add_cells(case_, files_.restart());
         observer_.emplace(*system_.cells);
         catch_interrupts();
         files_.log().info(describe(case_, system_));

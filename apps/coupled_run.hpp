@@ -20,9 +20,9 @@ class CoupledSystem {
   public:
     /// Checks the case, chooses the numbers and builds the fluid. Throws InputError.
     explicit CoupledSystem(const Case& c);
-    /// Relaxes the cells, which may take a while, and couples them to the fluid. Throws NumericalError
-    /// (a relaxation failed), FileError.
-    void add_cells(const Case& c);
+    /// Relaxes the cells, which may take a while, and couples them to the fluid; cells of a checkpoint keep its
+    /// references and need no relaxation. Throws NumericalError (a relaxation failed), FileError.
+    void add_cells(const Case& c, const output::Checkpoint* checkpoint = nullptr);
 
     /// State for a checkpoint, and back; cells must have been added.
     void save(output::Checkpoint& checkpoint) const;

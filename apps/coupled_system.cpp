@@ -70,6 +70,29 @@ std::unique_ptr<membrane::Batch> make_cells(const Case& c) {
     return batch;
 }
 
+/// The cells of a checkpoint with its references, not placed yet.
+std::unique_ptr<membrane::Batch> stored_cells(const Case& c, const output::Checkpoint& checkpoint) {
+    const CellInput& cell = c.cells.front();
+    const auto topology = std::make_shared<const membrane::Topology>(start_shape(cell));
+    const std::vector<double>& rest = checkpoint.array("membrane.rest", 5);
+    const membrane::Reference reference{
+        .area = rest[0],
+        .volume = rest[1],
+        .curvature = rest[2],
+        .total_curvature = rest[3],
+        .stretch_ratio = rest[4],
+        .triangle_areas = checkpoint.array("membrane.rest_area", topology->triangles().size()),
+        .edge_lengths = checkpoint.array("membrane.rest_length", topology->edges().size())};
+    return std::make_unique<membrane::Batch>(topology, membrane_parameters(cell), reference, c.cells.size());
+}
+
+void load_positions(membrane::Batch& cells, const output::Checkpoint& checkpoint) {
+    const std::size_t nodes = cells.x().size();
+    cells.x().assign(checkpoint.array("membrane.x", nodes));
+    cells.y().assign(checkpoint.array("membrane.y", nodes));
+    cells.z().assign(checkpoint.array("membrane.z", nodes));
+}
+
 /// The relaxed cells must lie inside the box and must not overlap: no two of their nodes closer than a tenth of an edge,
 /// and no centre of one inside the other's smallest half-width.
 void check_places(const Case& c, const meshing::RectilinearGrid& grid, const membrane::Batch& cells) {
@@ -146,7 +169,7 @@ coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& gr
         p.largest_cytosol = std::max(p.largest_cytosol, each.cytosol_viscosity);
     p.shear_rate = *c.shear_rate;
     p.shear_modulus = cell.shear_modulus;
-    p.radius = std::sqrt(cell.area / (4 * M_PI));
+    p.radius = rest_state(cell).radius();
     p.wall_distance = shear_reach(grid);
     p.smallest_cell = grid.smallest();
     coupling::NumericsChoice choice;
@@ -183,9 +206,14 @@ CoupledSystem::CoupledSystem(const Case& c)
     static_cast<void>(coupling::CellGrid(grid, fluid->grid().periodic()));  // refuses too few cells
 }
 
-void CoupledSystem::add_cells(const Case& c) {
-    cells = make_cells(c);
-    check_places(c, fluid->grid().rectilinear(), *cells);
+void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoint) {
+    if (checkpoint) {
+        cells = stored_cells(c, *checkpoint);
+        load_positions(*cells, *checkpoint);
+    } else {
+        cells = make_cells(c);
+        check_places(c, fluid->grid().rectilinear(), *cells);
+    }
     loop = make_loop(c, numerics, *fluid, *cells);
 }
 
@@ -195,6 +223,10 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("membrane.x", cells->x().to_host());
     checkpoint.put("membrane.y", cells->y().to_host());
     checkpoint.put("membrane.z", cells->z().to_host());
+    const membrane::Reference& r = cells->reference();
+    checkpoint.put("membrane.rest_length", r.edge_lengths);
+    checkpoint.put("membrane.rest_area", r.triangle_areas);
+    checkpoint.put("membrane.rest", {r.area, r.volume, r.curvature, r.total_curvature, r.stretch_ratio});
     const coupling::LoopMemory memory = loop->memory();
     checkpoint.put("loop.viscosity_x", memory.viscosity_nodes[0]);
     checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
@@ -204,12 +236,10 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
 }
 
 void CoupledSystem::load(const output::Checkpoint& checkpoint) {
-    const std::size_t grid_cells = fluid->grid().view().layout.cells(), nodes = cells->x().size();
+    const std::size_t grid_cells = fluid->grid().view().layout.cells();
     for (int q = 0; q < 4; ++q)
         fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
-    cells->x().assign(checkpoint.array("membrane.x", nodes));
-    cells->y().assign(checkpoint.array("membrane.y", nodes));
-    cells->z().assign(checkpoint.array("membrane.z", nodes));
+    load_positions(*cells, checkpoint);
     coupling::LoopMemory memory;
     memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
                               checkpoint.array("loop.viscosity_z")};

@@ -4,8 +4,10 @@
 #include <memory>
 
 #include "apps/case.hpp"
+#include "apps/case_check.hpp"
 #include "apps/cell_builder.hpp"
-#include "apps/cell_surface.hpp"
+#include "apps/cell_file.hpp"
+#include "apps/cell_options.hpp"
 #include "apps/commands.hpp"
 #include "apps/output/vtk_writer.hpp"
 #include "apps/units.hpp"
@@ -25,11 +27,8 @@ struct GridArguments {
 };
 
 struct RbcArguments {
-    std::string shape = "discocyte";
-    int nodes = 2562;
-    std::string area = "134 um^2";
-    double reduced_volume = 0.642;
-    std::string file;
+    CellOptions cell;
+    std::string area, reduced_volume, file;
 };
 
 /// Value of axis d from one value for all axes or three.
@@ -79,28 +78,27 @@ void make_grid_file(const GridArguments& in) {
     }
 }
 
-/// A cell with every key at its default.
-CellInput standard_cell() {
-    return parse_case("title = \"\"\nkind = \"membrane\"\n[[cell]]\n").cells.front();
+/// The case that the options describe; equal springs would print the icosphere's pattern on the disc, so the
+/// spheroid is the reference unless another is asked for.
+Case case_of(const RbcArguments& in) {
+    std::vector<std::string> sets;
+    if (in.cell.file.empty()) sets.emplace_back("cell.0.reference=spheroid");
+    if (!in.area.empty()) sets.push_back("cell.0.area=" + in.area);
+    if (!in.reduced_volume.empty()) sets.push_back("cell.0.reduced_volume=" + in.reduced_volume);
+    const std::vector<std::string> rest = in.cell.overrides();
+    sets.insert(sets.end(), rest.begin(), rest.end());
+    Case c = parse_case("title = \"mesh rbc\"\nkind = \"membrane\"\n[[cell]]\n", "hemoflux mesh rbc",
+                        std::filesystem::current_path(), sets);
+    check_case(c);
+    return c;
 }
 
 void make_rbc_file(const RbcArguments& in) {
-    CellInput cell = standard_cell();
-    cell.reference =
-        MembraneReference::spheroid;  // the disc; equal springs would print the icosphere's pattern on it
-    cell.nodes = in.nodes;
-    cell.area = quantity(in.area, "um^2");
-    cell.volume *= std::pow(cell.area / standard_cell().area, 1.5);  // the same shape at another size
-    cell.reduced_volume = in.reduced_volume;
-    cell.shape = in.shape == "sphere"       ? CellShape::sphere
-                 : in.shape == "spheroid"   ? CellShape::spheroid
-                 : in.shape == "evans-fung" ? CellShape::evans_fung
-                                            : CellShape::discocyte;
-    meshing::SurfaceMesh mesh = start_shape(cell);
-    if (cell.shape == CellShape::discocyte) {
-        mesh.vertices = build_cell(cell).positions;
-    }
-    if (!in.file.empty()) {
+    const membrane::Cell cell = build_cell(case_of(in).cells.front());
+    const meshing::SurfaceMesh mesh{cell.positions, cell.topology->triangles()};
+    if (std::filesystem::path(in.file).extension() == ".vtp") {
+        write_cell(in.file, *cell.topology, cell.reference, cell.positions);
+    } else if (!in.file.empty()) {
         meshing::write_surface(in.file, mesh);
     }
     const meshing::SurfaceQuality quality = meshing::quality(mesh);
@@ -110,6 +108,9 @@ void make_rbc_file(const RbcArguments& in) {
                quality.shortest_edge, quality.mean_edge, quality.longest_edge, quality.smallest_angle);
     fmt::print("area             {:.6g} um^2\nvolume           {:.6g} um^3\nreduced volume   {:.6g}\n",
                meshing::area(mesh), meshing::volume(mesh), meshing::reduced_volume(mesh));
+    const membrane::Reference& r = cell.reference;
+    fmt::print("references       A0 {:.6g} um^2, V0 {:.6g} um^3, C_0 {:.6g} 1/um, M0 {:.6g} um, r {:.4g}\n",
+               r.area, r.volume, r.curvature, r.total_curvature, r.stretch_ratio);
     if (!in.file.empty()) {
         fmt::print("written          {}\n", in.file);
     }
@@ -140,16 +141,21 @@ void add_mesh_command(CLI::App& program) {
         "grid.vtr");
     grid->callback([g] { make_grid_file(*g); });
 
-    CLI::App* rbc = mesh->add_subcommand("rbc", "Surface of a red blood cell on an icosphere");
-    rbc->option_defaults()->always_capture_default();
+    CLI::App* rbc = mesh->add_subcommand(
+        "rbc",
+        "Red blood cell: mesh, reference, relaxed shape. A .vtp file carries the references too, so that "
+        "later runs start from it");
     const auto r = std::make_shared<RbcArguments>();
-    rbc->add_option("--nodes", r->nodes, "42, 162, 642, 2562, 10242 or 40962");
-    rbc->add_option("--shape", r->shape, "discocyte (relaxed), evans-fung, spheroid or sphere")
-        ->check(CLI::IsMember({"discocyte", "evans-fung", "spheroid", "sphere"}));
-    rbc->add_option("--area", r->area, "Area with its unit");
-    rbc->add_option("--reduced-volume", r->reduced_volume, "Of the spheroid");
-    rbc->add_option("--output,-o", r->file, "File to write (.vtp, .ply, .stl or .obj)");
-    rbc->footer("Example: hemoflux mesh rbc --nodes 2562 --shape evans-fung --output rbc.vtp");
+    add_cell_options(*rbc, r->cell);
+    rbc->add_option("--area", r->area, "A0 with its unit [134 um^2]");
+    rbc->add_option("--reduced-volume", r->reduced_volume, "Of the shape spheroid [0.642]");
+    rbc->add_option("--output,-o", r->file, "File to write (.vtp; without references .ply, .stl or .obj)");
+    rbc->footer(
+        "Examples: hemoflux mesh rbc --nodes 2562 --output rbc.vtp\n"
+        "          hemoflux mesh rbc --reference stress-free --route deflation --shear-modulus \"4 uN/m\" -o "
+        "disc.vtp\n"
+        "          hemoflux mesh rbc --file own.stl --reference uniform -o own.vtp\n"
+        "          hemoflux membrane stretch --file rbc.vtp --forces \"100 pN\"");
     rbc->callback([r] { make_rbc_file(*r); });
 }
 

@@ -75,12 +75,16 @@ std::vector<double> edge_lengths(const Topology& topology, const std::vector<Vec
     return lengths;
 }
 
+double RestState::radius() const { return std::sqrt(area / (4 * red_blood_cell::pi)); }
+
 Reference reference_from_shape(const Topology& topology, const std::vector<Vec3d>& shape,
-                               double reduced_curvature) {
-    const double radius = red_blood_cell::radius();
+                               const RestState& rest) {
     Reference r;
-    r.curvature = reduced_curvature / radius;
-    r.total_curvature = 8 * red_blood_cell::pi * radius;
+    r.area = rest.area;
+    r.volume = rest.volume;
+    r.curvature = rest.reduced_curvature / rest.radius();
+    r.total_curvature = rest.area_difference * 8 * red_blood_cell::pi * rest.radius();
+    r.stretch_ratio = rest.stretch_ratio;
     r.triangle_areas = triangle_areas(topology, shape);
     r.edge_lengths = edge_lengths(topology, shape);
     return r;
@@ -92,14 +96,20 @@ double mean_edge(const Topology& topology, const std::vector<Vec3d>& positions) 
     return std::sqrt(4 * mean / std::sqrt(3.0));
 }
 
-Reference uniform_length_reference(const Topology& topology, const std::vector<Vec3d>& disc, double length) {
-    Reference r = reference_from_shape(topology, disc);
+Reference uniform_length_reference(const Topology& topology, const std::vector<Vec3d>& disc, double length,
+                                   const RestState& rest) {
+    Reference r = reference_from_shape(topology, disc, rest);
     r.edge_lengths.assign(r.edge_lengths.size(),
                           length == 0 ? uniform_length_ratio * mean_edge(topology, disc) : length);
     double total = 0;
     for (const double a : r.triangle_areas) total += a;
     r.triangle_areas.assign(r.triangle_areas.size(), total / static_cast<double>(r.triangle_areas.size()));
     return r;
+}
+
+double coarse_grained_length(std::size_t vertices, double area) {
+    return spectrin_length * std::sqrt((spectrin_vertices - 2) / (static_cast<double>(vertices) - 2) * area /
+                                       red_blood_cell::area);
 }
 
 }  // namespace hemoflux::membrane

@@ -176,24 +176,37 @@ RelaxResult relax(Batch& batch, const RelaxOptions& options, const std::vector<V
     return result;
 }
 
-RelaxResult deflate(Batch& batch, double volume, const RelaxOptions& options, int steps) {
-    if (steps < 1) throw InputError(fmt::format("deflation in {} steps", steps), "it needs one", "Use 12");
+RelaxResult approach(Batch& batch, const Reference& target, const RelaxOptions& options, int steps) {
+    if (steps < 1)
+        throw InputError(fmt::format("references reached in {} steps", steps), "it needs one", "Use 12");
     batch.compute_forces();
-    const double start = batch.sums(0).volume;
-    Reference reference = batch.reference();
+    const double volume = batch.sums(0).volume, curvature = batch.reference().curvature,
+                 total = batch.reference().total_curvature;
     RelaxOptions coarse = options;
     coarse.tolerance *= 100;
     RelaxResult sum;
     for (int k = 1; k <= steps; ++k) {
-        reference.volume = k == steps ? volume : start + (volume - start) * k / steps;
-        batch.set_reference(reference);
-        const RelaxResult step = relax(batch, k == steps ? options : coarse);
-        sum = {.iterations = sum.iterations + step.iterations,
-               .evaluations = sum.evaluations + step.evaluations,
-               .largest_force = step.largest_force,
-               .energy = step.energy};
+        const double t = static_cast<double>(k) / steps;
+        Reference step = target;
+        if (k < steps) {
+            step.volume = volume + t * (target.volume - volume);
+            step.curvature = curvature + t * (target.curvature - curvature);
+            step.total_curvature = total + t * (target.total_curvature - total);
+        }
+        batch.set_reference(step);
+        const RelaxResult result = relax(batch, k == steps ? options : coarse);
+        sum = {.iterations = sum.iterations + result.iterations,
+               .evaluations = sum.evaluations + result.evaluations,
+               .largest_force = result.largest_force,
+               .energy = result.energy};
     }
     return sum;
+}
+
+RelaxResult deflate(Batch& batch, double volume, const RelaxOptions& options, int steps) {
+    Reference target = batch.reference();
+    target.volume = volume;
+    return approach(batch, target, options, steps);
 }
 
 }  // namespace hemoflux::membrane

@@ -38,9 +38,14 @@ RelaxResult relax(Batch& batch, const RelaxOptions& options = {}, const std::vec
 /// cell would buckle into a cup.
 inline constexpr int deflation_steps = 12;
 
-/// Relaxes the batch's one cell at a reference volume that goes from the cell's present volume to `volume`
-/// (um^3) in equal steps; all but the last converge to 100 times the tolerance. The batch's reference keeps
-/// the last one. Iterations and evaluations are summed. Errors as relax().
+/// Relaxes the batch's one cell under references whose V_0, C_0 and M_0 go in equal steps from the cell's
+/// present volume and the batch's present C_0 and M_0 to those of `target`; all else is the target's from the
+/// first step on. All steps but the last converge to 100 times the tolerance. The batch's reference is the
+/// target afterwards. Iterations and evaluations are summed. Errors as relax(); InputError unless steps >= 1.
+RelaxResult approach(Batch& batch, const Reference& target, const RelaxOptions& options = {},
+                     int steps = deflation_steps);
+
+/// approach() to the batch's present reference with `volume` (um^3) as V_0.
 RelaxResult deflate(Batch& batch, double volume, const RelaxOptions& options = {},
                     int steps = deflation_steps);
 

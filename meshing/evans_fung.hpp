@@ -11,6 +11,8 @@ namespace hemoflux::meshing {
 
 /// Diameter of the average human red blood cell, um.
 inline constexpr double evans_fung_diameter = 7.82;
+/// Area of the disc of that diameter, um^2.
+inline constexpr double evans_fung_area = 134.1;
 
 /// Thickness 2 |z| of the disc at distance rho from its axis (um); 0 outside the rim.
 double evans_fung_thickness(double rho, double diameter = evans_fung_diameter);

@@ -3,6 +3,7 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -10,12 +11,14 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
 
 #include <stdexcept>
 
 #include "apps/output/atomic_file.hpp"
+#include "exchange/error.hpp"
 
 namespace hemoflux::output {
 namespace {
@@ -36,6 +39,18 @@ void add_arrays(vtkDataSetAttributes* attributes, const std::vector<DataArray>& 
                                         " does not have one tuple per cell or vertex");
         attributes->AddArray(to_vtk(a.name, a.components, a.values));
     }
+}
+
+std::vector<DataArray> arrays_of(vtkFieldData* attributes) {
+    std::vector<DataArray> arrays;
+    for (int a = 0; a < attributes->GetNumberOfArrays(); ++a) {
+        vtkDataArray* array = attributes->GetArray(a);
+        if (!array || !array->GetName()) continue;
+        DataArray& out = arrays.emplace_back(array->GetName(), array->GetNumberOfComponents());
+        for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+            for (int c = 0; c < out.components; ++c) out.values.push_back(array->GetComponent(i, c));
+    }
+    return arrays;
 }
 
 /// Serialises in memory, so that the file itself is written atomically and its errors are ours to report.
@@ -81,7 +96,8 @@ void write_fluid(const std::filesystem::path& path, const std::array<meshing::Ax
 }
 
 void write_cells(const std::filesystem::path& path, const std::vector<meshing::SurfaceMesh>& cells,
-                 const std::vector<DataArray>& point_data, double time) {
+                 const std::vector<DataArray>& point_data, double time,
+                 const std::vector<DataArray>& triangle_data, const std::vector<DataArray>& field_data) {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> triangles;
@@ -101,7 +117,25 @@ void write_cells(const std::filesystem::path& path, const std::vector<meshing::S
     surface->SetPolys(triangles);
     surface->GetPointData()->AddArray(index);
     add_arrays(surface->GetPointData(), point_data, static_cast<std::size_t>(points->GetNumberOfPoints()));
+    add_arrays(surface->GetCellData(), triangle_data,
+               static_cast<std::size_t>(triangles->GetNumberOfCells()));
+    for (const DataArray& a : field_data)
+        surface->GetFieldData()->AddArray(to_vtk(a.name, a.components, a.values));
     write<vtkXMLPolyDataWriter>(path, surface.Get(), time);
+}
+
+SurfaceArrays read_arrays(const std::filesystem::path& path) {
+    if (path.extension() != ".vtp") return {};
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    if (reader->GetErrorCode() != vtkErrorCode::NoError)
+        throw FileError("cannot read " + path.string(),
+                        vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode()), "Write it anew");
+    vtkPolyData* surface = reader->GetOutput();
+    return {.point = arrays_of(surface->GetPointData()),
+            .triangle = arrays_of(surface->GetCellData()),
+            .field = arrays_of(surface->GetFieldData())};
 }
 
 }  // namespace hemoflux::output

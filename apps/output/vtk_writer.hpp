@@ -29,9 +29,20 @@ void write_fluid(const std::filesystem::path& path, const std::array<meshing::Ax
                  const std::vector<DataArray>& cell_data, double time);
 
 /// Writes the surfaces of any number of cells into one .vtp: vertices of cell 0, then of cell 1, ...;
-/// point_data in the same order. The point array "cell" holds the index of the cell. Otherwise as
-/// write_fluid().
+/// point_data and triangle_data in the same order; field_data are arrays of any size. The point array "cell"
+/// holds the index of the cell. Otherwise as write_fluid().
 void write_cells(const std::filesystem::path& path, const std::vector<meshing::SurfaceMesh>& cells,
-                 const std::vector<DataArray>& point_data, double time);
+                 const std::vector<DataArray>& point_data, double time,
+                 const std::vector<DataArray>& triangle_data = {},
+                 const std::vector<DataArray>& field_data = {});
+
+/// The arrays of a .vtp, of vertices, triangles and of no place.
+struct SurfaceArrays {
+    std::vector<DataArray> point, triangle, field;
+};
+
+/// The numeric arrays of a .vtp file; none where the file is in another format. The surface itself is read by
+/// meshing::read_surface(). FileError when it cannot be read.
+SurfaceArrays read_arrays(const std::filesystem::path& path);
 
 }  // namespace hemoflux::output

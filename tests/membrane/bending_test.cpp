@@ -41,7 +41,7 @@ TEST(Bending, EnergyOfTheSphereTendsToEightPiKappa) {
         const auto sphere = meshing::icosphere(level, red_blood_cell::radius()).vertices;
         Parameters parameters;
         parameters.bending = {.local = 0.025, .area_difference = 0};
-        Batch batch(topology, parameters, reference_from_shape(*topology, sphere, 0));
+        Batch batch(topology, parameters, reference_from_shape(*topology, sphere, {.reduced_curvature = 0}));
         batch.set_positions(0, sphere);
         batch.compute_forces();
         const double ratio = batch.energies(0).bending / (8 * red_blood_cell::pi * 0.025);

@@ -73,5 +73,21 @@ TEST(Reference, UniformLengthScalesWithTheMesh) {
     for (const double a : scaled.triangle_areas) EXPECT_NEAR(a, mean_area, 1e-12);
 }
 
+TEST(Reference, CoarseGrainedLengthIsThatOfTheSpectrinNetworkOnFewerVertices) {
+    EXPECT_DOUBLE_EQ(coarse_grained_length(27344), 0.075);
+    EXPECT_NEAR(coarse_grained_length(2562), 0.2451, 1e-4);
+    EXPECT_NEAR(coarse_grained_length(2562, 4 * red_blood_cell::area), 2 * 0.2451, 2e-4);
+}
+
+TEST(Reference, TakesTheValuesOfTheWholeCellFromTheRestState) {
+    const auto topology = test::icosphere_topology(1);
+    const RestState rest{.area = 100, .volume = 50, .reduced_curvature = 3, .area_difference = 2};
+    const Reference r = reference_from_shape(*topology, meshing::icosphere(1, 1.0).vertices, rest);
+    EXPECT_EQ(r.area, 100);
+    EXPECT_EQ(r.volume, 50);
+    EXPECT_DOUBLE_EQ(r.curvature * rest.radius(), 3);
+    EXPECT_DOUBLE_EQ(r.total_curvature, 16 * red_blood_cell::pi * rest.radius());
+}
+
 }  // namespace
 }  // namespace hemoflux::membrane

@@ -55,7 +55,7 @@ TEST(Relax, IsBitwiseTheSameWithOneAndTwoThreads) {
 TEST(Relax, ReturnsToAStressFreeSphere) {
     const auto topology = test::icosphere_topology(2);
     const auto sphere = meshing::icosphere(2, 3.0);
-    Reference reference = reference_from_shape(*topology, sphere.vertices, 0);
+    Reference reference = reference_from_shape(*topology, sphere.vertices, {.reduced_curvature = 0});
     reference.area = meshing::area(sphere);
     reference.volume = meshing::volume(sphere);
     Parameters parameters;
@@ -119,6 +119,27 @@ TEST(Deflate, EndsAtTheVolumeAskedFor) {
     EXPECT_NEAR(batch.sums(0).volume, 110, 0.1);
     EXPECT_LE(largest_force(batch), 2e-5);
     EXPECT_THROW(deflate(batch, 100, {}, 0), InputError);
+}
+
+TEST(Approach, EndsUnderTheTargetWhateverTheSteps) {
+    const auto topology = test::icosphere_topology(2);
+    const auto disc = meshing::evans_fung(meshing::icosphere(2, 1.0));
+    const Reference start = reference_from_shape(*topology, test::reference_spheroid(2).vertices);
+    Reference target = start;
+    target.curvature *= 0.8;
+    target.total_curvature *= 1.05;
+    target.volume = 95;
+    double energy[2];
+    for (int i = 0; i < 2; ++i) {
+        Batch batch(topology, {}, start);
+        batch.set_positions(0, disc.vertices);
+        relax(batch);
+        energy[i] = approach(batch, target, {}, 3 + 4 * i).energy;
+        EXPECT_EQ(batch.reference().curvature, target.curvature);
+        EXPECT_EQ(batch.reference().total_curvature, target.total_curvature);
+        EXPECT_LE(largest_force(batch), 2e-5);
+    }
+    EXPECT_NEAR(energy[0], energy[1], 1e-6 * energy[1]);
 }
 
 }  // namespace

@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numeric>
 
+#include "exchange/error.hpp"
 #include "membrane/batch.hpp"
 #include "membrane/diagnostics.hpp"
+#include "meshing/icosphere.hpp"
+#include "meshing/spheroid.hpp"
 
 namespace hemoflux::membrane {
 namespace {
@@ -72,6 +75,33 @@ TEST(Discocyte, UniformSpringsAreCompressedAndTheCellIsBiconcave) {
     EXPECT_LT(d.centre_thickness, 0.5 * d.greatest_thickness);
     ShapeOptions options{.reference = ReferenceKind::uniform_length, .spring_length = 0.6};
     EXPECT_EQ(make_discocyte(2, options).reference.edge_lengths[7], 0.6);
+}
+
+TEST(Discocyte, TakesItsRestLengthsFromAGivenShape) {
+    const auto sphere = meshing::icosphere(2, 1.0);
+    ShapeOptions options{.reference = ReferenceKind::given};
+    options.reference_shape = meshing::spheroid(sphere, 3.5, 3.5, 2.9).vertices;
+    const Cell cell = make_discocyte(2, options);
+    EXPECT_EQ(cell.reference.edge_lengths, edge_lengths(*cell.topology, options.reference_shape));
+    options.reference_shape.pop_back();
+    EXPECT_THROW(make_discocyte(2, options), InputError);
+}
+
+TEST(Cell, OfAnImportedShapeStartsAsItIs) {
+    meshing::SurfaceMesh platelet = meshing::spheroid(meshing::icosphere(2, 1.0), 1.8, 1.8, 0.5);
+    const auto before = platelet.vertices;
+    meshing::translate(platelet, {1, 2, 3});
+    ShapeOptions options;
+    options.rest = {.area = meshing::area(platelet), .volume = meshing::volume(platelet)};
+    const Cell cell = make_cell(platelet, options);
+    for (std::size_t v = 0; v < before.size(); ++v) EXPECT_LT(norm(cell.positions[v] - before[v]), 1e-12);
+    Batch batch(cell.topology, cell.parameters, cell.reference);
+    batch.set_positions(0, cell.positions);
+    batch.compute_forces();
+    EXPECT_LT(batch.energies(0).shear + batch.energies(0).local_area + batch.energies(0).volume, 1e-12);
+    options.reference = ReferenceKind::coarse_grained;
+    EXPECT_EQ(make_cell(platelet, options).reference.edge_lengths[3],
+              coarse_grained_length(162, options.rest.area));
 }
 
 TEST(ValidationDiscocyte, BothRoutesReachTheSpecifiedDiscAt2562Nodes) {
