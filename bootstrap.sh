@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 packages=(
   g++ cmake ninja-build ccache                                  # compiler and build
   libthrust-dev libtbb-dev libeigen3-dev libfmt-dev             # loops, linear algebra, text
-  libcgal-dev libvtk9-dev libjsoncpp-dev libboost-dev           # meshes, files, pictures
+  libcgal-dev libgmsh-dev libvtk9-dev libjsoncpp-dev libboost-dev # meshes, files, pictures
   libcli11-dev libtomlplusplus-dev libudunits2-dev libspdlog-dev # command line, case files, units, log
   liblbfgspp-dev                                                # static relaxation
   libgtest-dev libbenchmark-dev                                 # tests

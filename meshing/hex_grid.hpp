@@ -1,11 +1,9 @@
-/// Face-based grid of hexahedra for the finite-volume solver.
+/// Face-based grid of hexahedra for the finite-volume solver. Area vector of a face through the nodes p0 .. p3
+/// (bilinear, warped or not), volume and centre of a cell:
 ///
-/// A face is bilinear through its four nodes p0..p3: its area vector and the volume of a cell are exact,
+///   S   = 1/2 (p2 - p0) x (p3 - p1)              outward S of a cell sum to zero
+///   V   = 1/3 sum_faces int r . dS               divergence theorem, exact for bilinear faces
 ///
-///   S   = 1/2 (p2 - p0) x (p3 - p1)                     sum of outward S over a cell = 0
-///   V   = 1/3 sum_faces int r . dS                      (divergence theorem)
-///
-/// with the two triangles of each face taken about its mean point, which gives the same S from both sides.
 #pragma once
 
 #include <array>
