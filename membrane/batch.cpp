@@ -11,58 +11,13 @@
 #include "exchange/pack.hpp"
 #include "membrane/area.hpp"
 #include "membrane/bending.hpp"
+#include "membrane/ring_tables.hpp"
 #include "membrane/volume.hpp"
 
 namespace hemoflux::membrane {
 namespace {
 
 using exchange::Buffer;
-
-std::size_t stride_of(const Topology& topology) {
-    return exchange::round_up(topology.vertices(), exchange::row_alignment);
-}
-
-/// Ring neighbours by slot: row i holds n_i of every vertex, and n_0 from its degree on.
-std::vector<int> neighbour_rows(const Topology& topology) {
-    const std::size_t stride = stride_of(topology), rows = topology.max_degree() + 1;
-    std::vector<int> table(rows * stride, 0);
-    for (std::size_t v = 0; v < topology.vertices(); ++v) {
-        const auto ring = topology.neighbours(v);
-        for (std::size_t i = 0; i < rows; ++i) table[i * stride + v] = i < ring.size() ? ring[i] : ring[0];
-    }
-    return table;
-}
-
-std::vector<double> degrees(const Topology& topology) {
-    std::vector<double> table(stride_of(topology), 0.0);
-    for (std::size_t v = 0; v < topology.vertices(); ++v) table[v] = static_cast<double>(topology.degree(v));
-    return table;
-}
-
-std::vector<int> group_degrees(const Topology& topology) {
-    std::vector<int> table(stride_of(topology) / exchange::row_alignment, 0);
-    for (std::size_t v = 0; v < topology.vertices(); ++v) {
-        int& group = table[v / exchange::row_alignment];
-        group = std::max(group, static_cast<int>(topology.degree(v)));
-    }
-    return table;
-}
-
-/// factor * values^power of the ring's triangles or edges by slot; 1 where a ring has ended.
-template <class Ring>
-std::vector<double> slot_rows(const Topology& topology, Ring ring, const std::vector<double>& values,
-                              double factor, bool inverse) {
-    const std::size_t stride = stride_of(topology);
-    std::vector<double> table(topology.max_degree() * stride, 1.0);
-    for (std::size_t v = 0; v < topology.vertices(); ++v) {
-        const auto items = ring(v);
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            const double value = factor * values[static_cast<std::size_t>(items[i])];
-            table[i * stride + v] = inverse ? 1 / value : value;
-        }
-    }
-    return table;
-}
 
 void copy_component(std::vector<double>& host, Buffer<double>& device, std::size_t first) {
     exchange::copy_to_device(device.data() + first, host.data(), host.size() * sizeof(double));
@@ -86,7 +41,7 @@ Batch::Batch(std::shared_ptr<const Topology> topology, const Parameters& paramet
     : topology_(std::move(topology)),
       parameters_(parameters),
       cells_(cells),
-      stride_(stride_of(*topology_)),
+      stride_(ring_stride(*topology_)),
       x_(cells * stride_),
       y_(cells * stride_),
       z_(cells * stride_),
@@ -95,7 +50,7 @@ Batch::Batch(std::shared_ptr<const Topology> topology, const Parameters& paramet
       fz_(cells * stride_),
       neighbour_(neighbour_rows(*topology_)),
       group_degree_(group_degrees(*topology_)),
-      degree_(degrees(*topology_)),
+      degree_(degree_row(*topology_)),
       by_curvature_(cells * stride_),
       by_area_(cells * stride_),
       bend_(cells * stride_ * topology_->max_degree()),
@@ -113,18 +68,31 @@ Batch::Batch(std::shared_ptr<const Topology> topology, const Parameters& paramet
 void Batch::set_parameters(const Parameters& parameters) {
     parameters.check();
     parameters_ = parameters;
+    prepare_law();
+}
+
+void Batch::prepare_law() {
+    const InPlaneLaw law = parameters_.network.law;
+    if (stores_triangle_tension(law) && triangle_tension_.size() == 0)
+        triangle_tension_ = Buffer<double>(cells_ * stride_ * topology_->max_degree());
+    if (!is_continuum(law)) return;
+    const RestTriangles rest = rest_triangles(*topology_, reference_.edge_lengths);
+    rest_area_ = Buffer<double>(triangle_rows(*topology_, rest.areas, 1, false));
+    inverse_rest_area_ = Buffer<double>(triangle_rows(*topology_, rest.areas, 1, true));
+    cot_here_ = Buffer<double>(rest.cot_here);
+    cot_first_ = Buffer<double>(rest.cot_first);
+    cot_second_ = Buffer<double>(rest.cot_second);
 }
 
 void Batch::set_reference(const Reference& reference) {
     reference.check(*topology_);
     reference_ = reference;
-    const auto triangles = [this](std::size_t v) { return topology_->ring_triangles(v); };
-    const auto edges = [this](std::size_t v) { return topology_->ring_edges(v); };
     const double r = reference.stretch_ratio;
-    area0_ = Buffer<double>(slot_rows(*topology_, triangles, reference.triangle_areas, 1, false));
-    inverse_area0_ = Buffer<double>(slot_rows(*topology_, triangles, reference.triangle_areas, 1, true));
-    contour_ = Buffer<double>(slot_rows(*topology_, edges, reference.edge_lengths, r, false));
-    inverse_contour_ = Buffer<double>(slot_rows(*topology_, edges, reference.edge_lengths, r, true));
+    area0_ = Buffer<double>(triangle_rows(*topology_, reference.triangle_areas, 1, false));
+    inverse_area0_ = Buffer<double>(triangle_rows(*topology_, reference.triangle_areas, 1, true));
+    contour_ = Buffer<double>(edge_rows(*topology_, reference.edge_lengths, r, false));
+    inverse_contour_ = Buffer<double>(edge_rows(*topology_, reference.edge_lengths, r, true));
+    prepare_law();
 }
 
 void Batch::set_positions(std::size_t cell, const std::vector<Vec3d>& positions) {
@@ -166,6 +134,12 @@ ForceView Batch::view() {
             .inverse_area0 = inverse_area0_.data(),
             .contour = contour_.data(),
             .inverse_contour = inverse_contour_.data(),
+            .rest_area = rest_area_.data(),
+            .inverse_rest_area = inverse_rest_area_.data(),
+            .cot_here = cot_here_.data(),
+            .cot_first = cot_first_.data(),
+            .cot_second = cot_second_.data(),
+            .triangle_tension = triangle_tension_.data(),
             .by_curvature = by_curvature_.data(),
             .by_area = by_area_.data(),
             .bend = bend_.data(),
@@ -181,7 +155,8 @@ ForceView Batch::view() {
             .total_area0 = reference_.area,
             .curvature0 = reference_.curvature,
             .total_curvature0 = reference_.total_curvature,
-            .chain = WormLikeChain(parameters_.network.shear, reference_.stretch_ratio)};
+            .network = parameters_.network,
+            .stretch_ratio = reference_.stretch_ratio};
 }
 
 bool Batch::try_compute_forces() {
@@ -205,6 +180,7 @@ void Batch::report_overstretched() const {
         for (std::size_t e = 0; e < lengths.size(); ++e) {
             const double contour = reference_.stretch_ratio * reference_.edge_lengths[e];
             if (lengths[e] / contour < 1) continue;
+            if (is_continuum(parameters_.network.law) && !std::isnan(lengths[e])) continue;
             const Edge& edge = topology_->edges()[e];
             if (std::isnan(lengths[e]))
                 throw NumericalError(fmt::format("vertex {} or {} of cell {}", edge.v1, edge.v2, c),
@@ -216,6 +192,8 @@ void Batch::report_overstretched() const {
                 "Take smaller steps, smaller forces, or longer or stiffer springs");
         }
     }
+    if (is_continuum(parameters_.network.law))
+        throw NumericalError("a triangle", "it is stretched beyond any number", "Take smaller steps");
     throw NumericalError("a spring", "it lies within rounding of its contour length", "Take smaller steps");
 }
 

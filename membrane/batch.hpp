@@ -77,6 +77,7 @@ class Batch {
 
   private:
     [[nodiscard]] ForceView view();
+    void prepare_law();
     [[noreturn]] void report_overstretched() const;
 
     std::shared_ptr<const Topology> topology_;
@@ -86,6 +87,8 @@ class Batch {
     exchange::Buffer<double> x_, y_, z_, fx_, fy_, fz_;
     exchange::Buffer<int> neighbour_, group_degree_;
     exchange::Buffer<double> degree_, area0_, inverse_area0_, contour_, inverse_contour_;
+    exchange::Buffer<double> rest_area_, inverse_rest_area_, cot_here_, cot_first_, cot_second_;
+    exchange::Buffer<double> triangle_tension_;
     exchange::Buffer<double> by_curvature_, by_area_, bend_, spring_, inverse_normal_;
     exchange::Buffer<CellSums> device_sums_;
     std::vector<CellSums> sums_;

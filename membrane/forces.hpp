@@ -2,7 +2,8 @@
 ///
 /// Pass 1 reduces volume, area and total curvature of each cell, and leaves at each vertex dE/dS_j and
 /// dE/dA_j; pass 2 gathers the force -grad E of each vertex from its own ring (volume.hpp, area.hpp,
-/// bending.hpp, wlc.hpp). Every vertex is written by one task alone: no atomics, and the same bits for any
+/// bending.hpp, wlc.hpp,
+/// strain_energy.hpp). Every vertex is written by one task alone: no atomics, and the same bits for any
 /// number of threads.
 #pragma once
 
@@ -10,7 +11,7 @@
 #include <memory>
 
 #include "exchange/macros.hpp"
-#include "membrane/wlc.hpp"
+#include "membrane/parameters.hpp"
 
 namespace hemoflux::membrane {
 
@@ -21,8 +22,8 @@ struct CellSums {
     double total_curvature = 0;    ///< M = sum theta_s L_s, um
     double local_area_energy = 0;  ///< 1e-17 J
     double helfrich_energy = 0;    ///< 1e-17 J
-    double shear_energy = 0;       ///< 1e-17 J
-    double overstretched = 0;      ///< positive when a spring has reached its contour length
+    double shear_energy = 0;       ///< of springs and, hydrostatic and continuum laws, triangles, 1e-17 J
+    double overstretched = 0;      ///< positive when a spring has reached its contour length, or on NaN
 
     HEMOFLUX_FN CellSums& operator+=(const CellSums& b) {
         volume += b.volume, area += b.area, total_curvature += b.total_curvature;
@@ -43,13 +44,27 @@ struct ForceView {
     const int* group_degree;                  ///< greatest degree in each group of row_alignment vertices
     const double *area0, *inverse_area0;      ///< A_k0 of ring triangles and 1/A_k0, slots rows
     const double *contour, *inverse_contour;  ///< L_c of ring edges and 1/L_c, slots rows
-    double *by_curvature, *by_area;           ///< dE/dS_j and dE/dA_j of each vertex of each cell
-    double *bend, *spring, *inverse_normal;   ///< theta/L, (dE_S/dL)/L and 1/|xi| of each slot of each cell
-    CellSums* sums;                           ///< of each cell
+    /// Continuum laws: areas of the rest triangles, their inverses, and their cotangents at the vertex, at n_i
+    /// and at n_{i+1}, slots rows.
+    const double *rest_area, *inverse_rest_area, *cot_here, *cot_first, *cot_second;
+    double* triangle_tension;                ///< hydrostatic and continuum laws: dE_S/dA_k, of each slot
+    double *by_curvature, *by_area;          ///< dE/dS_j and dE/dA_j of each vertex of each cell
+    double *bend, *spring, *inverse_normal;  ///< theta/L, (dE_S/dL)/L and 1/|xi| of each slot of each cell
+    CellSums* sums;                          ///< of each cell
     double k_volume, k_area, k_local_area, k_bending, k_area_difference;
     double volume0, total_area0, curvature0, total_curvature0;
-    WormLikeChain chain;
+    NetworkModuli network;
+    double stretch_ratio;
 };
+
+/// True for the laws of strain_energy.hpp, which need the rest triangles.
+constexpr bool is_continuum(InPlaneLaw law) {
+    return law == InPlaneLaw::neo_hookean || law == InPlaneLaw::skalak;
+}
+/// True for the laws that pull on the triangles' areas.
+constexpr bool stores_triangle_tension(InPlaneLaw law) {
+    return is_continuum(law) || law == InPlaneLaw::wlc_hydrostatic;
+}
 
 /// Scratch memory of the sums; one per batch.
 class ForceScratch {

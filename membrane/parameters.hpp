@@ -44,14 +44,28 @@ struct BendingModuli {
     }
 };
 
-/// In-plane resistance of the spring network, (6.38), and the surface viscosity of (6.41).
+/// How the membrane resists in-plane deformation. The shear modulus K_S is the input of every law; its
+/// coefficients follow from it at each spring's or triangle's own rest state, so that no result depends on the
+/// mesh. Of a flat sheet (sheet.hpp measures it), with K the area modulus of the law without K_A,k:
+enum class InPlaneLaw {
+    wlc,              ///< shifted worm-like chain (6.30), wlc.hpp; K = 2 K_S
+    wlc_power,        ///< worm-like chain against a power law, Fedosov et al. 2010, wlc.hpp; K = 2 K_S
+    wlc_hydrostatic,  ///< worm-like chain against the triangles' area, Dao et al. 2006, wlc.hpp; K = 2 K_S
+    neo_hookean,      ///< continuum, strain_energy.hpp; K = 3 K_S
+    skalak,           ///< continuum, strain_energy.hpp; K = (1 + 2 C) K_S
+};
+
+/// In-plane resistance, (6.38), and the surface viscosity of (6.41).
 struct NetworkModuli {
     double shear = 0.4;       ///< K_S, 1e-5 N/m
     double viscosity = 7000;  ///< mu_PM, 1e-10 Pa s m; acts in motion only, never in statics
+    InPlaneLaw law = InPlaneLaw::wlc;
+    double skalak_ratio = 1;  ///< C of InPlaneLaw::skalak; its area modulus is (1 + 2 C) K_S
 
     /// Throws InputError when a modulus is negative or not finite.
     void check() const {
         detail::not_negative("shear modulus", shear);
+        detail::not_negative("Skalak ratio", skalak_ratio);
         detail::not_negative("membrane viscosity", viscosity);
     }
 };

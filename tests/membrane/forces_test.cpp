@@ -8,6 +8,7 @@
 #include <map>
 #include <string>
 
+#include "membrane/wlc.hpp"
 #include "tests/membrane/shapes_for_tests.hpp"
 
 namespace hemoflux::membrane {
@@ -26,6 +27,12 @@ Parameters only(const std::string& term) {
     if (term == "bending") p.bending.local = full.bending.local;
     if (term == "area_difference") p.bending.area_difference = full.bending.area_difference;
     if (term == "shear") p.network.shear = full.network.shear;
+    const std::map<std::string, InPlaneLaw> laws{{"wlc_power", InPlaneLaw::wlc_power},
+                                                 {"wlc_hydrostatic", InPlaneLaw::wlc_hydrostatic},
+                                                 {"neo_hookean", InPlaneLaw::neo_hookean},
+                                                 {"skalak", InPlaneLaw::skalak}};
+    if (laws.contains(term))
+        p.network = {.shear = full.network.shear, .law = laws.at(term), .skalak_ratio = 3};
     if (term == "all") return full;
     return p;
 }
@@ -88,7 +95,8 @@ TEST_P(ForceOfTerm, HasNoNetForceAndNoTorque) {
 
 INSTANTIATE_TEST_SUITE_P(Membrane, ForceOfTerm,
                          ::testing::Values("volume", "area", "local_area", "bending", "area_difference",
-                                           "shear", "all"),
+                                           "shear", "wlc_power", "wlc_hydrostatic", "neo_hookean", "skalak",
+                                           "all"),
                          [](const auto& test_info) { return test_info.param; });
 
 TEST(Forces, RoughShapeHasConcaveEdgesAndRingsOfEveryDegree) {
