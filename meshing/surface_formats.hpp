@@ -1,17 +1,12 @@
 /// One parser and one printer per surface file format, working on the text of a file; see surface_io.hpp.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
+#include "meshing/format_error.hpp"
 #include "meshing/surface_mesh.hpp"
 
 namespace hemoflux::meshing {
-
-/// Why a text is not a surface in the format it claims; surface_io adds the file's name.
-struct FormatError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// What the text of a file holds. FormatError where it is malformed; indices and coordinates are not yet
 /// checked.

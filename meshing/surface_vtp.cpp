@@ -1,7 +1,6 @@
 // VTP: VTK's XML PolyData.
 #include <fmt/format.h>
 #include <vtkCellArray.h>
-#include <vtkCommand.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -12,37 +11,12 @@
 #include <cstddef>
 
 #include "meshing/surface_formats.hpp"
+#include "meshing/vtk_listener.hpp"
 
 namespace hemoflux::meshing {
-namespace {
-
-// Keeps the first error of the objects it observes, which VTK would print otherwise.
-class Listener : public vtkCommand {
-  public:
-    static Listener* New() { return new Listener; }
-
-    void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* data) override {
-        if (first_.empty()) first_ = said(static_cast<const char*>(data));
-    }
-
-    [[nodiscard]] const std::string& first() const { return first_; }
-
-  private:
-    // "ERROR: In file, line n\nvtkClass (0x...): what\n\n" -> "what"
-    static std::string said(const std::string& text) {
-        const std::size_t begin = text.find("): ");
-        if (begin == std::string::npos) return text;
-        const std::size_t end = text.find('\n', begin);
-        return text.substr(begin + 3, end == std::string::npos ? end : end - begin - 3);
-    }
-
-    std::string first_;
-};
-
-}  // namespace
 
 SurfaceMesh parse_vtp(const std::string& text) {
-    vtkNew<Listener> listener;
+    vtkNew<VtkListener> listener;
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->AddObserver(vtkCommand::ErrorEvent, listener);
     reader->SetParserErrorObserver(listener);

@@ -1,0 +1,107 @@
+#include "meshing/hex_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "exchange/error.hpp"
+#include "meshing/hex_formats.hpp"
+
+namespace hemoflux::meshing {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    const char* extension;
+    HexMesh (*read)(const std::string&);
+    void (*write)(const std::string&, const HexMesh&);
+};
+
+const Format& format_of(const fs::path& path) {
+    static constexpr Format formats[] = {{".msh", read_msh, write_msh}, {".vtu", read_vtu, write_vtu}};
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const Format& format : formats)
+        if (extension == format.extension) return format;
+    throw InputError("mesh file " + path.string(),
+                     fmt::format("its extension \"{}\" is not known", extension),
+                     "Use .msh (gmsh) or .vtu (VTK)");
+}
+
+void check_readable(const fs::path& path) {
+    const std::ifstream file(path, std::ios::binary);
+    std::error_code error;
+    if (!file)
+        throw FileError("mesh file " + path.string(),
+                        "it cannot be read: " + std::generic_category().message(errno),
+                        "Check the path and its permissions");
+    if (fs::is_directory(path, error))
+        throw FileError("mesh file " + path.string(), "it is a folder", "Name a file in it");
+}
+
+/// Leaves out nodes of no cell, such as the centres of circles that gmsh keeps.
+void drop_unused_nodes(HexMesh& mesh) {
+    std::vector<std::uint32_t> number(mesh.nodes.size(), 0);
+    for (const auto& cell : mesh.cells)
+        for (const std::uint32_t n : cell) number[n] = 1;
+    for (const HexMesh::Patch& patch :
+         mesh.patches)  // a patch apart from the cells is for make_hex_grid to refuse
+        for (const auto& face : patch.faces)
+            for (const std::uint32_t n : face) number[n] = 1;
+    std::uint32_t used = 0;
+    for (std::size_t i = 0; i < number.size(); ++i) {
+        if (number[i] == 0) continue;
+        mesh.nodes[used] = mesh.nodes[i];
+        number[i] = used++;
+    }
+    mesh.nodes.resize(used);
+    for (auto& cell : mesh.cells)
+        for (std::uint32_t& n : cell) n = number[n];
+    for (HexMesh::Patch& patch : mesh.patches)
+        for (auto& face : patch.faces)
+            for (std::uint32_t& n : face) n = number[n];
+}
+
+}  // namespace
+
+HexMesh read_hex_mesh(const fs::path& path, double scale) {
+    const Format& format = format_of(path);
+    check_readable(path);
+    HexMesh mesh;
+    try {
+        mesh = format.read(path.string());
+        if (mesh.cells.empty()) throw FormatError("it holds no hexahedra");
+    } catch (const FormatError& error) {
+        throw InputError(
+            "mesh file " + path.string(), error.what(),
+            "Mesh the volume with hexahedra of 8 nodes (in gmsh: transfinite or extruded and recombined) "
+            "and write it as MSH 4.1 or VTU");
+    }
+    drop_unused_nodes(mesh);
+    return scale == 1 ? mesh : scaled(std::move(mesh), scale);
+}
+
+void write_hex_mesh(const fs::path& path, const HexMesh& mesh) {
+    const Format& format = format_of(path);
+    {
+        const std::ofstream file(path, std::ios::binary | std::ios::app);
+        if (!file)
+            throw FileError("mesh file " + path.string(),
+                            "it cannot be written: " + std::generic_category().message(errno),
+                            "Check the folder and its permissions");
+    }
+    try {
+        format.write(path.string(), mesh);
+    } catch (const FormatError& error) {
+        throw FileError("mesh file " + path.string(), std::string("it cannot be written: ") + error.what(),
+                        "Check the space left on the disk");
+    }
+}
+
+}  // namespace hemoflux::meshing
