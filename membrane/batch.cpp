@@ -63,12 +63,23 @@ Batch::Batch(std::shared_ptr<const Topology> topology, const Parameters& paramet
         throw InputError("a batch of 0 cells", "there is nothing to compute", "Give at least one cell");
     parameters_.check();
     set_reference(reference);
+    prepare_bending();
 }
 
 void Batch::set_parameters(const Parameters& parameters) {
     parameters.check();
     parameters_ = parameters;
     prepare_law();
+    prepare_bending();
+}
+
+void Batch::prepare_bending() {
+    if (!laplacian_bending() || laplacian_scratch_) return;
+    hx_ = Buffer<double>(cells_ * stride_);
+    hy_ = Buffer<double>(cells_ * stride_);
+    hz_ = Buffer<double>(cells_ * stride_);
+    laplacian_sums_ = Buffer<CellSums>(cells_);
+    laplacian_scratch_ = std::make_unique<LaplacianScratch>(cells_, stride_);
 }
 
 void Batch::prepare_law() {
@@ -93,6 +104,15 @@ void Batch::set_reference(const Reference& reference) {
     contour_ = Buffer<double>(edge_rows(*topology_, reference.edge_lengths, r, false));
     inverse_contour_ = Buffer<double>(edge_rows(*topology_, reference.edge_lengths, r, true));
     prepare_law();
+}
+
+double Batch::linear_curvature() const {
+    return laplacian_bending() ? -parameters_.bending.local * reference_.curvature : 0;
+}
+
+double Batch::linear_area() const {
+    return laplacian_bending() ? 0.5 * parameters_.bending.local * reference_.curvature * reference_.curvature
+                               : 0;
 }
 
 void Batch::set_positions(std::size_t cell, const std::vector<Vec3d>& positions) {
@@ -149,8 +169,10 @@ ForceView Batch::view() {
             .k_volume = parameters_.constraint.volume,
             .k_area = parameters_.constraint.area,
             .k_local_area = parameters_.constraint.local_area,
-            .k_bending = parameters_.bending.local,
+            .k_bending = laplacian_bending() ? 0 : parameters_.bending.local,
             .k_area_difference = parameters_.bending.area_difference,
+            .linear_curvature = linear_curvature(),
+            .linear_area = linear_area(),
             .volume0 = reference_.volume,
             .total_area0 = reference_.area,
             .curvature0 = reference_.curvature,
@@ -159,22 +181,40 @@ ForceView Batch::view() {
             .stretch_ratio = reference_.stretch_ratio};
 }
 
+LaplacianView Batch::laplacian() {
+    return {.k_bending = parameters_.bending.local,
+            .hx = hx_.data(),
+            .hy = hy_.data(),
+            .hz = hz_.data(),
+            .sums = laplacian_sums_.data()};
+}
+
 bool Batch::try_compute_forces() {
     const ForceView w = view();
     curvature_pass(w, scratch_);
     exchange::copy_to_host(sums_.data(), device_sums_.data(), cells_ * sizeof(CellSums));
+    if (laplacian_bending()) {
+        laplacian_pass(w, laplacian(), *laplacian_scratch_);
+        const std::vector<CellSums> bending = laplacian_sums_.to_host();
+        for (std::size_t c = 0; c < cells_; ++c) sums_[c] += bending[c];
+    }
     for (const CellSums& s : sums_)
-        if (s.overstretched > 0) return false;
+        if (s.overstretched > 0 || s.degenerate > 0) return false;
     force_pass(w);
+    if (laplacian_bending()) laplacian_force_pass(w, laplacian());
     return true;
 }
 
 void Batch::compute_forces() {
-    if (!try_compute_forces()) report_overstretched();
+    if (!try_compute_forces()) report_failure();
 }
 
-void Batch::report_overstretched() const {
+void Batch::report_failure() const {
     for (std::size_t c = 0; c < cells_; ++c) {
+        if (sums_[c].degenerate > 0 && !(sums_[c].overstretched > 0))
+            throw NumericalError(fmt::format("a vertex of cell {}", c),
+                                 "its triangles are so obtuse that its Voronoi area is not positive",
+                                 "Take smaller steps, a better mesh, or the Juelicher bending scheme");
         if (!(sums_[c].overstretched > 0)) continue;
         const std::vector<double> lengths = edge_lengths(*topology_, positions(c));
         for (std::size_t e = 0; e < lengths.size(); ++e) {
@@ -202,7 +242,7 @@ Energies Batch::energies(std::size_t cell) const {
     return {.volume = volume_energy(parameters_.constraint.volume, s.volume, reference_.volume),
             .area = area_energy(parameters_.constraint.area, s.area, reference_.area),
             .local_area = s.local_area_energy,
-            .bending = s.helfrich_energy,
+            .bending = s.helfrich_energy + linear_curvature() * s.total_curvature + linear_area() * s.area,
             .area_difference = area_difference_energy(parameters_.bending.area_difference, s.total_curvature,
                                                       reference_.total_curvature, reference_.area),
             .shear = s.shear_energy};

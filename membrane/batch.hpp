@@ -8,6 +8,7 @@
 #include "exchange/buffer.hpp"
 #include "exchange/vec3.hpp"
 #include "membrane/forces.hpp"
+#include "membrane/gompper_kroll.hpp"
 #include "membrane/parameters.hpp"
 #include "membrane/reference.hpp"
 #include "membrane/topology.hpp"
@@ -66,7 +67,7 @@ class Batch {
     [[nodiscard]] std::vector<Vec3d> forces(std::size_t cell) const;
 
     /// Forces -grad E of all terms at the current positions. Throws NumericalError that names cell, edge,
-    /// vertices and length when a spring has reached its contour length or a position is not a number.
+    /// vertices and length when a spring has reached its contour length, a position is not a number, or a Voronoi area is not positive.
     void compute_forces();
     /// As compute_forces(), but returns false, with the forces undefined, where that one throws.
     [[nodiscard]] bool try_compute_forces();
@@ -77,8 +78,15 @@ class Batch {
 
   private:
     [[nodiscard]] ForceView view();
+    LaplacianView laplacian();
     void prepare_law();
-    [[noreturn]] void report_overstretched() const;
+    void prepare_bending();
+    [[noreturn]] void report_failure() const;
+    [[nodiscard]] double linear_curvature() const;
+    [[nodiscard]] double linear_area() const;
+    [[nodiscard]] bool laplacian_bending() const {
+        return parameters_.bending.scheme == BendingScheme::gompper_kroll;
+    }
 
     std::shared_ptr<const Topology> topology_;
     Parameters parameters_;
@@ -93,6 +101,9 @@ class Batch {
     exchange::Buffer<CellSums> device_sums_;
     std::vector<CellSums> sums_;
     ForceScratch scratch_;
+    exchange::Buffer<double> hx_, hy_, hz_;  // for gompper_kroll.hpp only
+    exchange::Buffer<CellSums> laplacian_sums_;
+    std::unique_ptr<LaplacianScratch> laplacian_scratch_;
 };
 
 }  // namespace hemoflux::membrane

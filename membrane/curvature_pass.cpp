@@ -160,15 +160,6 @@ struct CurvatureTask {
     }
 };
 
-/// Reads the partial sums of one cell.
-struct PartialSum {
-    const CellSums* partial;
-    std::size_t chunks;
-    HEMOFLUX_FN const CellSums& operator()(std::size_t cell, std::size_t chunk) const {
-        return partial[cell * chunks + chunk];
-    }
-};
-
 template <class Law>
 void run_curvature_pass(const ForceView& view, const Law& law, CellSums* partial) {
     exchange::for_each_index(view.cells * chunks_of(view.stride),

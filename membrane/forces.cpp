@@ -62,9 +62,11 @@ struct ForceTask {
         const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
         const CellSums& sums = w.sums[cell];
         const double pressure = volume_pressure(w.k_volume, sums.volume, w.volume0);
-        const double tension = area_tension(w.k_area, sums.area, w.total_area0);
-        const double by_total_curvature = area_difference_by_curvature(
-            w.k_area_difference, sums.total_curvature, w.total_curvature0, w.total_area0);
+        const double tension = area_tension(w.k_area, sums.area, w.total_area0) + w.linear_area;
+        const double by_total_curvature =
+            area_difference_by_curvature(w.k_area_difference, sums.total_curvature, w.total_curvature0,
+                                         w.total_area0) +
+            w.linear_curvature;
         for (std::size_t v = first; v < last; v += exchange::lanes<Value>)
             vertices(cell, v, pressure, tension, by_total_curvature);
     }

@@ -24,11 +24,13 @@ struct CellSums {
     double helfrich_energy = 0;    ///< 1e-17 J
     double shear_energy = 0;       ///< of springs and, hydrostatic and continuum laws, triangles, 1e-17 J
     double overstretched = 0;      ///< positive when a spring has reached its contour length, or on NaN
+    double degenerate = 0;         ///< positive when a Voronoi area is not (gompper_kroll.hpp)
 
     HEMOFLUX_FN CellSums& operator+=(const CellSums& b) {
         volume += b.volume, area += b.area, total_curvature += b.total_curvature;
         local_area_energy += b.local_area_energy, helfrich_energy += b.helfrich_energy;
         shear_energy += b.shear_energy, overstretched += b.overstretched;
+        degenerate += b.degenerate;
         return *this;
     }
 };
@@ -52,6 +54,9 @@ struct ForceView {
     double *bend, *spring, *inverse_normal;  ///< theta/L, (dE_S/dL)/L and 1/|xi| of each slot of each cell
     CellSums* sums;                          ///< of each cell
     double k_volume, k_area, k_local_area, k_bending, k_area_difference;
+    /// Added to dE/dM and dE/dA of the cell: -K_B C_0 and K_B C_0^2 / 2 where k_bending is left to
+    /// gompper_kroll.hpp, else 0.
+    double linear_curvature, linear_area;
     double volume0, total_area0, curvature0, total_curvature0;
     NetworkModuli network;
     double stretch_ratio;

@@ -32,10 +32,17 @@ struct ConstraintModuli {
     }
 };
 
+/// How the mean curvature of the triangulated surface is taken; both tend to the same energy.
+enum class BendingScheme {
+    juelicher,      ///< edge angles summed over a node's ring, (6.22), Juelicher 1996; bending.hpp
+    gompper_kroll,  ///< cotangent Laplacian over Voronoi areas, Gompper and Kroll 1996; gompper_kroll.hpp
+};
+
 /// Bending resistance, (6.20).
 struct BendingModuli {
     double local = 0.025;            ///< K_B, Helfrich, 1e-17 J
     double area_difference = 0.025;  ///< K_B,ADE, 1e-17 J
+    BendingScheme scheme = BendingScheme::juelicher;
 
     /// Throws InputError when a modulus is negative or not finite.
     void check() const {

@@ -41,4 +41,13 @@ inline exchange::Cost cost_of(const ForceView& w) {
     return w.cells * w.stride < worth_sharing ? exchange::Cost::cheap : exchange::Cost::heavy;
 }
 
+/// Reads the partial sums of one cell.
+struct PartialSum {
+    const CellSums* partial;
+    std::size_t chunks;
+    HEMOFLUX_FN const CellSums& operator()(std::size_t cell, std::size_t chunk) const {
+        return partial[cell * chunks + chunk];
+    }
+};
+
 }  // namespace hemoflux::membrane

@@ -20,7 +20,8 @@ void measure(benchmark::State& state, int threads, std::size_t items, const std:
 /// residual/<n>/<features>/<threads>, residual_by_cell/<n>/<features>, residual_scalar/<n>/plain,
 /// ghost_fill/<n>/<threads>, factored_solve/<n>/<threads>. Items are cells.
 void add_fluid_benchmarks();
-/// membrane_forces/<nodes>/<threads>. Items are nodes.
+/// membrane_forces/<nodes>/<threads>, membrane_batch/2562/<threads>/cells:<n>, membrane_law/2562/1/<law or bending
+/// scheme>. Items are nodes.
 void add_membrane_benchmarks();
 /// stencil, spread and interpolate of 2562 nodes on the tank-treading grid, by kernel, and
 /// viscosity_recompute, viscosity_check.

@@ -29,24 +29,32 @@ bool same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
     return a.size() == b.size();
 }
 
-TEST(Batch, IsBitwiseTheSameWithOneAndTwoThreads) {
-    exchange::set_threads(1);
-    Batch batch = test::rough_batch(4, 3);
-    batch.compute_forces();
-    std::vector<std::vector<Vec3d>> one;
-    std::vector<double> energy;
-    for (std::size_t c = 0; c < 3; ++c) {
-        one.push_back(batch.forces(c));
-        energy.push_back(batch.energies(c).total());
-    }
-    for (int threads : {2, 3}) {
-        exchange::set_threads(threads);
-        batch.compute_forces();
-        for (std::size_t c = 0; c < 3; ++c) {
-            EXPECT_TRUE(same(batch.forces(c), one[c])) << threads << " threads, cell " << c;
-            EXPECT_EQ(batch.energies(c).total(), energy[c]);
+TEST(Batch, IsBitwiseTheSameForAnyNumberOfThreadsWithEveryLawAndScheme) {
+    for (const InPlaneLaw law : {InPlaneLaw::wlc, InPlaneLaw::wlc_power, InPlaneLaw::wlc_hydrostatic,
+                                 InPlaneLaw::neo_hookean, InPlaneLaw::skalak})
+        for (const BendingScheme scheme : {BendingScheme::juelicher, BendingScheme::gompper_kroll}) {
+            exchange::set_threads(1);
+            Batch batch = test::rough_batch(4, 3);
+            Parameters parameters;
+            parameters.network.law = law;
+            parameters.bending.scheme = scheme;
+            batch.set_parameters(parameters);
+            batch.compute_forces();
+            std::vector<std::vector<Vec3d>> one;
+            std::vector<double> energy;
+            for (std::size_t c = 0; c < 3; ++c) {
+                one.push_back(batch.forces(c));
+                energy.push_back(batch.energies(c).total());
+            }
+            for (const int threads : {2, 3}) {
+                exchange::set_threads(threads);
+                batch.compute_forces();
+                for (std::size_t c = 0; c < 3; ++c) {
+                    EXPECT_TRUE(same(batch.forces(c), one[c])) << threads << " threads, cell " << c;
+                    EXPECT_EQ(batch.energies(c).total(), energy[c]);
+                }
+            }
         }
-    }
     exchange::set_threads(1);
 }
 

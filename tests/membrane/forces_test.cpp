@@ -33,6 +33,9 @@ Parameters only(const std::string& term) {
                                                  {"skalak", InPlaneLaw::skalak}};
     if (laws.contains(term))
         p.network = {.shear = full.network.shear, .law = laws.at(term), .skalak_ratio = 3};
+    if (term == "gompper_kroll")
+        p.bending = {
+            .local = full.bending.local, .area_difference = 0.04, .scheme = BendingScheme::gompper_kroll};
     if (term == "all") return full;
     return p;
 }
@@ -96,7 +99,7 @@ TEST_P(ForceOfTerm, HasNoNetForceAndNoTorque) {
 INSTANTIATE_TEST_SUITE_P(Membrane, ForceOfTerm,
                          ::testing::Values("volume", "area", "local_area", "bending", "area_difference",
                                            "shear", "wlc_power", "wlc_hydrostatic", "neo_hookean", "skalak",
-                                           "all"),
+                                           "gompper_kroll", "all"),
                          [](const auto& test_info) { return test_info.param; });
 
 TEST(Forces, RoughShapeHasConcaveEdgesAndRingsOfEveryDegree) {
