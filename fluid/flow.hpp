@@ -3,6 +3,7 @@
 /// Units: the grid's length unit, velocity c = 1, density 1; pressure = gamma rho / 3.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -24,7 +25,8 @@ struct ResidualNorm {
 };
 
 /// One face of a border patch and the force of the fluid on what lies behind it. area points out of the fluid, its
-/// length is the face's area; the forces are in lattice units and carry the factor gamma of (4.22).
+/// length is the face's area. The forces are in lattice units and carry the factor gamma of (4.22); the pressure is
+/// counted from that of density 1.
 struct WallFace {
     Vec3d centre, area, pressure, viscous;
 };
@@ -67,6 +69,12 @@ class Flow {
     /// First cell whose density or velocity is not finite, or whose density is outside (0.5, 1.5); cells() if there is
     /// none.
     virtual std::size_t first_bad_cell() = 0;
+
+    /// Gradients of density and velocity x, y, z at every cell, as the solver takes them.
+    [[nodiscard]] virtual std::vector<std::array<Vec3d, 4>> gradients() const = 0;
+    /// The faces of a patch with the forces on what lies behind them. InputError when there is no such patch, or it is
+    /// periodic.
+    [[nodiscard]] virtual std::vector<WallFace> wall_faces(const std::string& patch) const = 0;
 
   protected:
     Flow() = default;

@@ -1,0 +1,34 @@
+/// Streamfunction of a plane flow, (3.14):
+///   laplace psi = -zeta,   zeta = dv/dx - du/dy (3.13),   u = dpsi/dy,   v = -dpsi/dx.
+/// Finite volumes: the vorticity of a cell is the circulation around it, psi on the sides is the volume flux through
+/// them, counted from the lower left corner (0 on walls). Second order.
+#pragma once
+
+#include <vector>
+
+#include "meshing/rectilinear.hpp"
+
+namespace hemoflux::fluid {
+
+class Solver;
+
+/// A scalar field at the cell centres of a plane grid, x fastest.
+struct PlaneField {
+    meshing::Axis x, y;
+    std::vector<double> values;
+
+    [[nodiscard]] double at(std::size_t i, std::size_t j) const { return values[j * x.cells() + i]; }
+};
+
+/// Streamfunction (velocity times length) of a flow on a grid one cell thick in z, neither x nor y periodic. InputError
+/// for any other grid.
+PlaneField streamfunction(const Solver& solver);
+
+/// Solves laplace psi = -zeta with given values at the face centres of the sides (lower and upper x: y.cells() values
+/// each; lower and upper y: x.cells() values each).
+struct PlaneBorder {
+    std::vector<double> x_lower, x_upper, y_lower, y_upper;
+};
+std::vector<double> solve_poisson(const PlaneField& vorticity, const PlaneBorder& psi);
+
+}  // namespace hemoflux::fluid
