@@ -76,8 +76,10 @@ class Batch {
     [[nodiscard]] const CellSums& sums(std::size_t cell) const { return sums_[cell]; }
     [[nodiscard]] Energies energies(std::size_t cell) const;
 
-  private:
+    /// Device pointers and scalars, for the kernels of this room.
     [[nodiscard]] ForceView view();
+
+  private:
     LaplacianView laplacian();
     void prepare_law();
     void prepare_bending();

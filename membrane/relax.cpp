@@ -20,22 +20,14 @@ using Vector = Eigen::VectorXd;
 /// The energy as a function of all coordinates: x of every vertex, then y, then z.
 class Objective {
   public:
-    Objective(Batch& batch, const std::vector<Vec3d>& load, double tolerated_force, double first_move)
+    Objective(Batch& batch, const Potential& potential, double tolerated_force, double first_move)
         : tolerance(tolerated_force),
           largest_move(first_move),
           batch_(batch),
           n_(batch.vertices()),
-          load_(dimension()) {
-        load_.setZero();
-        for (std::size_t v = 0; v < load.size(); ++v) {
-            const auto i = static_cast<Eigen::Index>(v), n = static_cast<Eigen::Index>(n_);
-            load_[i] = load[v].x;
-            load_[n + i] = load[v].y;
-            load_[2 * n + i] = load[v].z;
-        }
-    }
+          potential_(potential) {}
 
-    /// Energy with the loads' potential at r, and its gradient; huge, the gradient unchanged, where a spring
+    /// Energy with the added potential at r, and its gradient; huge, the gradient unchanged, where a spring
     /// is beyond its contour length, so that a line search turns back.
     double operator()(const Vector& r, Vector& gradient) {
         ++evaluations;
@@ -44,11 +36,15 @@ class Objective {
         read(batch_.fx(), 0, gradient);
         read(batch_.fy(), 1, gradient);
         read(batch_.fz(), 2, gradient);
-        gradient = -gradient - load_;
+        gradient = -gradient;
+        double energy = batch_.energies(0).total();
+        if (potential_) {
+            const auto size = static_cast<std::size_t>(dimension());
+            energy += potential_({r.data(), size}, {gradient.data(), size});
+        }
         const auto n = static_cast<Eigen::Index>(n_);
         const auto f = gradient.reshaped(n, 3);
         const double force = f.rowwise().norm().maxCoeff();
-        const double energy = batch_.energies(0).total() - load_.dot(r);
         if (energy < best_energy) {
             best_energy = energy;
             best = r;
@@ -87,7 +83,7 @@ class Objective {
 
     Batch& batch_;
     std::size_t n_;
-    Vector load_;
+    const Potential& potential_;
 };
 
 /// The library's backtracking, with the first trial shortened to `largest_move`. LBFGSSolver stops on the
@@ -109,10 +105,13 @@ struct ShortSteps {
 /// Restarts that forget the history after a line search without success; rounding may need one.
 constexpr int restarts = 4;
 
-void check_load(const Batch& batch, const std::vector<Vec3d>& load) {
+void check_cells(const Batch& batch) {
     if (batch.cells() != 1)
         throw InputError(fmt::format("a batch of {} cells", batch.cells()), "one cell is relaxed at a time",
                          "Make a batch of one cell");
+}
+
+void check_load(const Batch& batch, const std::vector<Vec3d>& load) {
     if (!load.empty() && load.size() != batch.vertices())
         throw InputError(fmt::format("{} loads", load.size()),
                          fmt::format("the cell has {} vertices", batch.vertices()),
@@ -133,14 +132,35 @@ void RelaxOptions::check() const {
     positive("largest_move", largest_move);
 }
 
+Potential dead_load(const std::vector<Vec3d>& load) {
+    if (load.empty()) return {};
+    return [load](std::span<const double> r, std::span<double> gradient) {
+        const std::size_t n = load.size();
+        double work = 0;
+        for (std::size_t v = 0; v < n; ++v) {
+            work += load[v].x * r[v] + load[v].y * r[n + v] + load[v].z * r[2 * n + v];
+            gradient[v] -= load[v].x;
+            gradient[n + v] -= load[v].y;
+            gradient[2 * n + v] -= load[v].z;
+        }
+        return -work;
+    };
+}
+
 RelaxResult relax(Batch& batch, const RelaxOptions& options, const std::vector<Vec3d>& load) {
-    options.check();
+    check_cells(batch);
     check_load(batch, load);
+    return minimise(batch, options, dead_load(load));
+}
+
+RelaxResult minimise(Batch& batch, const RelaxOptions& options, const Potential& potential) {
+    options.check();
+    check_cells(batch);
     batch.compute_forces();  // names the spring when the start is beyond a contour length
     const std::vector<double>& lengths = batch.reference().edge_lengths;
     const double mean =
         std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
-    Objective objective(batch, load, options.tolerance, options.largest_move * mean);
+    Objective objective(batch, potential, options.tolerance, options.largest_move * mean);
 
     LBFGSpp::LBFGSParam<double> parameters;
     parameters.m = options.history;

@@ -1,6 +1,8 @@
 /// Static relaxation: the nearest minimum of the energy, by L-BFGS on the forces of a batch.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "exchange/vec3.hpp"
@@ -33,6 +35,16 @@ struct RelaxResult {
 /// would reach its contour length are rejected. Throws InputError when the batch holds several cells or load
 /// has the wrong size, and NumericalError when it starts beyond the contour length or does not converge.
 RelaxResult relax(Batch& batch, const RelaxOptions& options = {}, const std::vector<Vec3d>& load = {});
+
+/// An energy besides the membrane's: returns its value at r (x of all vertices, then y, then z; um) and adds its
+/// gradient to `gradient`. 1e-17 J and 1e-11 N.
+using Potential = std::function<double(std::span<const double> r, std::span<double> gradient)>;
+
+/// -sum load.r of a constant force on each vertex (1e-11 N); an empty function for no load.
+Potential dead_load(const std::vector<Vec3d>& load);
+
+/// As relax(), with any potential added to the energy; an empty function adds none.
+RelaxResult minimise(Batch& batch, const RelaxOptions& options, const Potential& potential);
 
 /// Steps in which the reference volume goes from a sphere's or spheroid's to a discocyte's. Never one: the
 /// cell would buckle into a cup.

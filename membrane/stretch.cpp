@@ -15,15 +15,6 @@ namespace {
 /// 1 pN in the internal unit of force.
 constexpr double piconewton = 0.1;
 
-std::vector<Vec3d> loads(const PulledVertices& pulled, std::size_t vertices, double force) {
-    std::vector<Vec3d> load(vertices, Vec3d{0, 0, 0});
-    for (int v : pulled.left)
-        load[static_cast<std::size_t>(v)].x -= force / static_cast<double>(pulled.left.size());
-    for (int v : pulled.right)
-        load[static_cast<std::size_t>(v)].x += force / static_cast<double>(pulled.right.size());
-    return load;
-}
-
 /// Mirror images of one another differ in x by what the relaxation left; they count as tied, um.
 constexpr double tie = 1e-4;
 
@@ -53,6 +44,16 @@ PulledVertices pulled_vertices(const std::vector<Vec3d>& rest) {
     return {.left = outermost(rest, -1), .right = outermost(rest, 1)};
 }
 
+std::vector<Vec3d> pulling_loads(const PulledVertices& pulled, std::size_t vertices, double force_pN) {
+    const double force = force_pN * piconewton;
+    std::vector<Vec3d> load(vertices, Vec3d{0, 0, 0});
+    for (int v : pulled.left)
+        load[static_cast<std::size_t>(v)].x -= force / static_cast<double>(pulled.left.size());
+    for (int v : pulled.right)
+        load[static_cast<std::size_t>(v)].x += force / static_cast<double>(pulled.right.size());
+    return load;
+}
+
 std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& forces_pN,
                                   const RelaxOptions& options) {
     for (double f : forces_pN)
@@ -64,7 +65,7 @@ std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& force
     const PulledVertices pulled = pulled_vertices(batch.positions(0));
     std::vector<StretchPoint> points;
     for (double force : forces_pN) {
-        const RelaxResult result = relax(batch, options, loads(pulled, batch.vertices(), force * piconewton));
+        const RelaxResult result = relax(batch, options, pulling_loads(pulled, batch.vertices(), force));
         const auto positions = batch.positions(0);
         const ShapeMoments moments = shape_moments(batch.topology().triangles(), positions);
         const Diameters d = stretch_diameters(positions, moments.centroid);

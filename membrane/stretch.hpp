@@ -23,6 +23,9 @@ inline constexpr double pulled_fraction = 0.02;
 /// wins a tie. InputError when there are fewer than two vertices.
 PulledVertices pulled_vertices(const std::vector<Vec3d>& rest);
 
+/// Force on each vertex, 1e-11 N: `force_pN` along +-x, shared out among the pulled vertices of each end.
+std::vector<Vec3d> pulling_loads(const PulledVertices& pulled, std::size_t vertices, double force_pN);
+
 /// The cell at one force.
 struct StretchPoint {
     double force_pN = 0;
