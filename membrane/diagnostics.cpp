@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace hemoflux::membrane {
@@ -40,34 +39,6 @@ struct Octant {
         }
     }
 };
-
-/// A triangle seen along the disc's axis: corners in the plane, and their heights.
-struct Projected {
-    std::array<double, 3> u, v, h;
-};
-
-/// Height at which the line along the axis through (u, v) meets the triangle; false when it misses it.
-bool meet(const Projected& t, double u, double v, double& height) {
-    const double d1u = t.u[1] - t.u[0], d1v = t.v[1] - t.v[0], d2u = t.u[2] - t.u[0], d2v = t.v[2] - t.v[0];
-    const double area = d1u * d2v - d1v * d2u;
-    if (area == 0) return false;
-    const double b = ((u - t.u[0]) * d2v - (v - t.v[0]) * d2u) / area;
-    const double c = (d1u * (v - t.v[0]) - d1v * (u - t.u[0])) / area;
-    constexpr double slack = 1e-12;  // a line through a vertex meets its triangles
-    if (!(b >= -slack && c >= -slack && b + c <= 1 + slack)) return false;
-    height = t.h[0] + b * (t.h[1] - t.h[0]) + c * (t.h[2] - t.h[0]);
-    return true;
-}
-
-double thickness(const std::vector<Projected>& triangles, double u, double v) {
-    double low = std::numeric_limits<double>::infinity(), high = -low, height = 0;
-    for (const Projected& t : triangles)
-        if (meet(t, u, v, height)) {
-            low = std::min(low, height);
-            high = std::max(high, height);
-        }
-    return std::max(0.0, high - low);
-}
 
 }  // namespace
 
@@ -165,43 +136,6 @@ Diameters stretch_diameters(const std::vector<Vec3d>& positions, const Vec3d& ce
         d.axial = std::max(d.axial, 2 * norm(r));
         d.transverse = std::max(d.transverse, 2 * std::hypot(r.y, r.z));
     }
-    return d;
-}
-
-DiscMeasures disc_measures(const Triangles& triangles, const std::vector<Vec3d>& positions) {
-    const ShapeMoments s = shape_moments(triangles, positions);
-    std::vector<double> u, v, h;
-    for (const Vec3d& p : positions) {
-        const Vec3d r = p - s.centroid;
-        u.push_back(dot(r, s.axes[0]));
-        v.push_back(dot(r, s.axes[1]));
-        h.push_back(dot(r, s.axes[2]));
-    }
-    DiscMeasures d;
-    constexpr int directions = 180;
-    for (int k = 0; k < directions; ++k) {
-        const double x = std::cos(pi * k / directions), y = std::sin(pi * k / directions);
-        double low = 0, high = 0;
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            low = std::min(low, x * u[i] + y * v[i]);
-            high = std::max(high, x * u[i] + y * v[i]);
-        }
-        d.diameter = std::max(d.diameter, high - low);
-    }
-    std::vector<Projected> projected;
-    for (const auto& t : triangles) {
-        Projected p{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto i = static_cast<std::size_t>(t[c]);
-            p.u[c] = u[i];
-            p.v[c] = v[i];
-            p.h[c] = h[i];
-        }
-        projected.push_back(p);
-    }
-    d.centre_thickness = thickness(projected, 0, 0);
-    for (std::size_t i = 0; i < u.size(); ++i)
-        d.greatest_thickness = std::max(d.greatest_thickness, thickness(projected, u[i], v[i]));
     return d;
 }
 

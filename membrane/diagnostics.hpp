@@ -59,6 +59,18 @@ struct Diameters {
 };
 Diameters stretch_diameters(const std::vector<Vec3d>& positions, const Vec3d& centroid);
 
+/// Smallest rectangle around a cell's shadow on the xy plane.
+struct Rectangle {
+    double length = 0, width = 0;  ///< length >= width, um
+    double angle_deg = 0;          ///< of the length, from +x, in (-90, 90]
+
+    /// Deformation index (7.1), (length - width)/(length + width).
+    [[nodiscard]] double deformation_index() const { return (length - width) / (length + width); }
+};
+
+/// The rectangle of least area that bounds the x and y coordinates (section 7.3), by an edge of their convex hull.
+Rectangle minimum_rectangle(const std::vector<Vec3d>& positions);
+
 /// Measures of a disc about its axis, the shortest principal axis, um.
 struct DiscMeasures {
     double diameter = 0;            ///< largest extent in any direction of the disc's plane
@@ -66,5 +78,16 @@ struct DiscMeasures {
     double greatest_thickness = 0;  ///< along the axis through any vertex
 };
 DiscMeasures disc_measures(const Triangles& triangles, const std::vector<Vec3d>& positions);
+
+/// Thickness along the disc's axis at a distance from it, um: the mean over `directions` directions, and the
+/// least and greatest of them.
+struct ThicknessSample {
+    double radius = 0, mean = 0, least = 0, greatest = 0;
+};
+
+/// Thickness at `samples` evenly spaced radii from the axis to the mean radius of the rim; 0 outside the cell.
+std::vector<ThicknessSample> thickness_profile(const Triangles& triangles,
+                                               const std::vector<Vec3d>& positions, int samples = 41,
+                                               int directions = 24);
 
 }  // namespace hemoflux::membrane

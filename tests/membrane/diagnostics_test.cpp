@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "exchange/error.hpp"
 #include "meshing/evans_fung.hpp"
 #include "meshing/icosphere.hpp"
 #include "meshing/spheroid.hpp"
@@ -114,6 +115,42 @@ TEST(DiscMeasures, OfTheEvansFungDiscInAnyOrientation) {
     EXPECT_NEAR(d.diameter, 7.82, 5e-3);
     EXPECT_NEAR(d.centre_thickness, meshing::evans_fung_thickness(0), 5e-3);
     EXPECT_NEAR(d.greatest_thickness, greatest, 5e-3);
+}
+
+TEST(MinimumRectangle, OfATurnedBoxIsTheBox) {
+    for (const double degrees : {-80.0, -30.0, 0.0, 12.0, 45.0, 89.0}) {
+        const auto r = minimum_rectangle(turned(box(4, 1, 2), degrees * pi / 180, {3, -8, 0}).vertices);
+        EXPECT_NEAR(r.length, 4, 1e-12);
+        EXPECT_NEAR(r.width, 1, 1e-12);
+        EXPECT_NEAR(r.angle_deg, degrees, 1e-9);
+        EXPECT_NEAR(r.deformation_index(), 0.6, 1e-12);
+    }
+    EXPECT_THROW(minimum_rectangle({{0, 0, 0}, {1, 1, 5}, {2, 2, 1}}), InputError);
+}
+
+TEST(MinimumRectangle, OfAnEllipsoidHasItsAxes) {
+    const auto ellipsoid = meshing::spheroid(meshing::icosphere(4, 1.0), 3, 2, 1);
+    const auto r = minimum_rectangle(turned(ellipsoid, 0.4).vertices);
+    EXPECT_NEAR(r.length, 6, 0.02);
+    EXPECT_NEAR(r.width, 4, 0.02);
+    EXPECT_NEAR(r.angle_deg, 0.4 * 180 / pi, 1.5);
+}
+
+TEST(ThicknessProfile, OfTheEvansFungDiscFollowsItsFormula) {
+    const auto disc = meshing::evans_fung(meshing::icosphere(5, 1.0));
+    const auto profile = thickness_profile(disc.triangles, disc.vertices, 21, 12);
+    const DiscMeasures d = disc_measures(disc.triangles, disc.vertices);
+    EXPECT_NEAR(profile.front().mean, d.centre_thickness, 1e-12);
+    EXPECT_NEAR(2 * profile.back().radius, d.diameter, 0.02);
+    const double diameter = 7.82;  // (6.44)
+    for (std::size_t i = 0; i + 3 < profile.size(); ++i) {
+        const double q = std::pow(profile[i].radius / diameter, 2);
+        const double expected = 2 * diameter * std::sqrt(1 - 4 * q) * (0.0518 + 2.0026 * q - 4.491 * q * q);
+        EXPECT_NEAR(profile[i].mean, expected, 0.02) << profile[i].radius;
+        EXPECT_LE(profile[i].least, profile[i].mean + 1e-12);
+        EXPECT_GE(profile[i].greatest, profile[i].mean - 1e-12);
+    }
+    EXPECT_THROW(thickness_profile(disc.triangles, disc.vertices, 1), InputError);
 }
 
 }  // namespace

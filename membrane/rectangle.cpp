@@ -1,0 +1,72 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "exchange/error.hpp"
+#include "membrane/diagnostics.hpp"
+
+namespace hemoflux::membrane {
+namespace {
+
+using Point = std::array<double, 2>;
+
+/// Twice the signed area of triangle a, b, c.
+double turn(const Point& a, const Point& b, const Point& c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// Convex hull, counter-clockwise, by Andrew's monotone chain.
+std::vector<Point> convex_hull(std::vector<Point> points) {
+    std::sort(points.begin(), points.end());
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    std::vector<Point> hull;
+    const auto half = [&](auto begin, auto end) {
+        const std::size_t first = hull.size();
+        for (auto p = begin; p != end; ++p) {
+            while (hull.size() >= first + 2 && turn(hull[hull.size() - 2], hull.back(), *p) <= 0)
+                hull.pop_back();
+            hull.push_back(*p);
+        }
+        hull.pop_back();  // it begins the other half
+    };
+    half(points.begin(), points.end());
+    half(points.rbegin(), points.rend());
+    return hull;
+}
+
+}  // namespace
+
+Rectangle minimum_rectangle(const std::vector<Vec3d>& positions) {
+    std::vector<Point> points;
+    for (const Vec3d& p : positions) points.push_back({p.x, p.y});
+    const std::vector<Point> hull = convex_hull(points);
+    if (hull.size() < 3)
+        throw InputError("a cell whose shadow on the xy plane has no area", "no rectangle bounds it",
+                         "Give a closed surface");
+    Rectangle best;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const Point &a = hull[i], &b = hull[(i + 1) % hull.size()];
+        const double size = std::hypot(b[0] - a[0], b[1] - a[1]);
+        const double x = (b[0] - a[0]) / size, y = (b[1] - a[1]) / size;
+        double low = 0, high = 0, height = 0;
+        for (const Point& p : hull) {
+            const double along = (p[0] - a[0]) * x + (p[1] - a[1]) * y;
+            low = std::min(low, along);
+            high = std::max(high, along);
+            height = std::max(height, (p[1] - a[1]) * x - (p[0] - a[0]) * y);
+        }
+        if (!((high - low) * height < least)) continue;
+        least = (high - low) * height;
+        const bool lies = high - low >= height;
+        best = {.length = lies ? high - low : height, .width = lies ? height : high - low};
+        best.angle_deg = (lies ? std::atan2(y, x) : std::atan2(x, -y)) * 180 / std::numbers::pi;
+        if (best.angle_deg > 90) best.angle_deg -= 180;
+        if (best.angle_deg <= -90) best.angle_deg += 180;
+    }
+    return best;
+}
+
+}  // namespace hemoflux::membrane
