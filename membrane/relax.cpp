@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 #include <numeric>
+#include <string>
 
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
@@ -105,6 +106,47 @@ struct ShortSteps {
 /// Restarts that forget the history after a line search without success; rounding may need one.
 constexpr int restarts = 4;
 
+std::string name_triangle(const Topology& topology, std::size_t k) {
+    const auto& t = topology.triangles()[k];
+    return fmt::format("triangle {} of vertices {}, {} and {}", k, t[0], t[1], t[2]);
+}
+
+/// Share of its contour length from which a chain is too stiff for its neighbours to converge beside it.
+constexpr double stiff_chain = 0.9;
+
+/// Throws the reason why a relaxation ended without success.
+[[noreturn]] void report_failure(const Batch& batch, const RelaxResult& result, double tolerance) {
+    const auto positions = batch.positions(0);
+    const Topology& topology = batch.topology();
+    const std::string what = fmt::format("relaxation stopped at a force of {:.3g} after {} iterations",
+                                         result.largest_force, result.iterations);
+    if (!is_continuum(batch.parameters().network.law)) {
+        const auto lengths = edge_lengths(topology, positions);
+        std::size_t longest = 0;
+        double share = 0;
+        for (std::size_t e = 0; e < lengths.size(); ++e) {
+            const double l =
+                lengths[e] / (batch.reference().stretch_ratio * batch.reference().edge_lengths[e]);
+            if (l > share) share = l, longest = e;
+        }
+        if (share > stiff_chain)
+            throw NumericalError(
+                what,
+                fmt::format("spring {} between vertices {} and {} is stretched to {:.1f} % of its contour "
+                            "length, which no force can exceed",
+                            longest, topology.edges()[longest].v1, topology.edges()[longest].v2, 100 * share),
+                "Take smaller forces, or longer or stiffer springs");
+    }
+    const std::size_t fold = folded_triangle(topology, positions);
+    if (fold < topology.triangles().size())
+        throw NumericalError(
+            what, name_triangle(topology, fold) + " is folded over",
+            "Take smaller load or volume steps, smaller forces, or a larger local area modulus");
+    throw NumericalError(what, fmt::format("the tolerance is {:.3g}", tolerance),
+                         "Start nearer to the minimum, take smaller load or volume steps, or allow more "
+                         "iterations");
+}
+
 void check_cells(const Batch& batch) {
     if (batch.cells() != 1)
         throw InputError(fmt::format("a batch of {} cells", batch.cells()), "one cell is relaxed at a time",
@@ -130,6 +172,22 @@ void RelaxOptions::check() const {
     positive("max_iterations", max_iterations);
     positive("history", history);
     positive("largest_move", largest_move);
+}
+
+std::size_t folded_triangle(const Topology& topology, const std::vector<Vec3d>& positions) {
+    const auto at = [&positions](int v) { return positions[static_cast<std::size_t>(v)]; };
+    std::vector<Vec3d> normals, around(topology.triangles().size(), Vec3d{0, 0, 0});
+    for (const auto& t : topology.triangles()) {
+        const Vec3d xi = cross(at(t[1]) - at(t[0]), at(t[2]) - at(t[0]));
+        normals.push_back((1 / norm(xi)) * xi);
+    }
+    for (const Edge& e : topology.edges()) {
+        around[static_cast<std::size_t>(e.a)] += normals[static_cast<std::size_t>(e.b)];
+        around[static_cast<std::size_t>(e.b)] += normals[static_cast<std::size_t>(e.a)];
+    }
+    std::size_t k = 0;
+    while (k < normals.size() && dot(normals[k], around[k]) >= 0) ++k;
+    return k;
 }
 
 Potential dead_load(const std::vector<Vec3d>& load) {
@@ -187,12 +245,12 @@ RelaxResult minimise(Batch& batch, const RelaxOptions& options, const Potential&
     result.evaluations = objective.evaluations;
     result.largest_force = objective.largest_force;
     result.energy = batch.energies(0).total();
-    if (!objective.converged())
-        throw NumericalError(
-            fmt::format("relaxation stopped at a force of {:.3g} after {} iterations", result.largest_force,
-                        result.iterations),
-            fmt::format("the tolerance is {:.3g}", options.tolerance),
-            "Start nearer to the minimum, take smaller load or volume steps, or allow more iterations");
+    if (!objective.converged()) report_failure(batch, result, options.tolerance);
+    const std::size_t fold = folded_triangle(batch.topology(), batch.positions(0));
+    if (fold < batch.topology().triangles().size())
+        throw NumericalError(name_triangle(batch.topology(), fold) + " is folded over at the minimum",
+                             "the surface has turned inside out there",
+                             "Start nearer to the minimum, or take smaller load or volume steps");
     return result;
 }
 

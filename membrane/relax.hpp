@@ -30,10 +30,15 @@ struct RelaxResult {
     double energy = 0;         ///< of the membrane, without the loads' potential, 1e-17 J
 };
 
+/// A triangle whose normal points against the sum of its neighbours' normals, where the surface is folded over;
+/// the number of triangles when there is none.
+std::size_t folded_triangle(const Topology& topology, const std::vector<Vec3d>& positions);
+
 /// Moves the vertices of a batch of one cell to the nearest minimum of E - sum load.r, where `load` is a
 /// constant force on each vertex (1e-11 N; empty: none) that should sum to zero. Steps in which a spring
 /// would reach its contour length are rejected. Throws InputError when the batch holds several cells or load
-/// has the wrong size, and NumericalError when it starts beyond the contour length or does not converge.
+/// has the wrong size, and NumericalError when it starts beyond the contour length, does not converge (it
+/// names the spring near its contour length or the folded triangle that is to blame) or ends folded over.
 RelaxResult relax(Batch& batch, const RelaxOptions& options = {}, const std::vector<Vec3d>& load = {});
 
 /// An energy besides the membrane's: returns its value at r (x of all vertices, then y, then z; um) and adds its
