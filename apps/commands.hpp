@@ -8,8 +8,10 @@ namespace hemoflux::apps {
 
 /// `hemoflux run CASE.toml`. The callback stores the exit code of the run in `code`.
 void add_run_command(CLI::App& program, int& code);
-/// `hemoflux mesh grid|rbc`.
+/// `hemoflux mesh grid|rbc|hex`.
 void add_mesh_command(CLI::App& program);
+/// `hemoflux mesh hex cube|cylinder|pipe|constriction|box|check`, part of `mesh`.
+void add_mesh_hex_command(CLI::App& mesh);
 /// `hemoflux membrane relax|stretch`.
 void add_membrane_command(CLI::App& program, int& code);
 /// `hemoflux schema`.

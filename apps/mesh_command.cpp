@@ -157,6 +157,8 @@ void add_mesh_command(CLI::App& program) {
         "          hemoflux mesh rbc --file own.stl --reference uniform -o own.vtp\n"
         "          hemoflux membrane stretch --file rbc.vtp --forces \"100 pN\"");
     rbc->callback([r] { make_rbc_file(*r); });
+
+    add_mesh_hex_command(*mesh);
 }
 
 }  // namespace hemoflux::apps

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <tuple>
 
 #include "exchange/error.hpp"
@@ -63,7 +63,8 @@ class Assembly {
 
     void measure_cells() {
         for (const std::size_t old : grid_.original) {
-            const Solid solid = hexahedron(cell_quads(mesh_, old));
+            const std::array<Quad, 6> quads = cell_quads(mesh_, old);
+            const Solid solid = hexahedron(quads);
             if (!(solid.volume > 0))
                 throw InputError(
                     fmt::format("{} has the volume {:.4g}", describe_cell(mesh_, old), solid.volume),
@@ -74,7 +75,26 @@ class Assembly {
                     "Repair this cell in the program that made the mesh");
             grid_.volume.push_back(solid.volume);
             grid_.centre.push_back(solid.centre);
+            grid_.aspect.push_back(aspect_of(static_cast<std::uint32_t>(6 * old), quads));
         }
+    }
+
+    [[nodiscard]] bool one_cell_everywhere(std::uint32_t first_side) const {
+        return topology_.one_cell_thick(first_side) && topology_.one_cell_thick(first_side + 2) &&
+               topology_.one_cell_thick(first_side + 4);
+    }
+
+    /// Extents are V / A, so that their ratio is that of the areas.
+    [[nodiscard]] double aspect_of(std::uint32_t first_side, const std::array<Quad, 6>& quads) const {
+        const bool all = one_cell_everywhere(first_side);
+        double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+        for (std::uint32_t k = 0; k < 6; k += 2) {
+            if (!all && topology_.one_cell_thick(first_side + k)) continue;
+            const double area = norm(quad_area(quads[k])) + norm(quad_area(quads[k + 1]));
+            smallest = std::min(smallest, area);
+            largest = std::max(largest, area);
+        }
+        return largest / smallest;
     }
 
     [[nodiscard]] std::uint32_t cell_of(std::uint32_t side) const { return number_[side / 6]; }
@@ -145,8 +165,7 @@ class Assembly {
         std::array<Limit, 6> limits;
         std::size_t count = 0;
         const std::uint32_t first = side - side % 6;
-        const bool single = topology_.one_cell_thick(first) && topology_.one_cell_thick(first + 2) &&
-                            topology_.one_cell_thick(first + 4);
+        const bool single = one_cell_everywhere(first);
         for (std::uint32_t g = first; g < first + 6; ++g) {
             if (g == side || (topology_.one_cell_thick(g) && !single)) continue;
             const Quad corners = quad(mesh_, g);

@@ -32,6 +32,9 @@ struct HexGrid {
     std::vector<double> volume;
     std::vector<Vec3d> centre;
     std::vector<std::size_t> original;
+    /// Per cell: aspect ratio, its largest over its smallest extent, an extent being the volume over the mean area of
+    /// two opposite faces. A direction in which the cell is the only one across the domain is left out.
+    std::vector<double> aspect;
 
     /// Per face: the cells on its two sides. On the border right = cells() + (face - interior_faces()).
     std::vector<std::uint32_t> left, right;

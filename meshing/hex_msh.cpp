@@ -1,11 +1,11 @@
 // MSH: gmsh's own format, through the gmsh library.
 #include <fmt/format.h>
-#include <gmsh.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <unordered_map>
 
+#include "meshing/gmsh_session.hpp"
 #include "meshing/hex_formats.hpp"
 
 namespace hemoflux::meshing {
@@ -13,30 +13,6 @@ namespace {
 
 // numbers of the MSH format
 constexpr int quadrangle = 3, hexahedron = 5;
-
-/// The gmsh library between initialize and finalize, silent.
-class Session {
-  public:
-    Session() {
-        gmsh::initialize(0, nullptr, false);
-        gmsh::option::setNumber("General.Terminal", 0);
-        gmsh::option::setNumber("General.NoPopup", 1);
-    }
-    ~Session() { gmsh::finalize(); }
-    Session(const Session&) = delete;
-    Session& operator=(const Session&) = delete;
-};
-
-/// Runs work in a session; errors of gmsh, which throws its messages as strings, become FormatError.
-template <class Work>
-auto with_gmsh(const Work& work) {
-    const Session session;
-    try {
-        return work();
-    } catch (const std::string& message) {
-        throw FormatError("gmsh says: " + message);
-    }
-}
 
 using Numbers = std::unordered_map<std::size_t, std::uint32_t>;
 

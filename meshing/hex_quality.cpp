@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace hemoflux::meshing {
@@ -51,13 +50,7 @@ HexQuality quality(const HexGrid& grid) {
     q.largest_delta = *std::max_element(grid.delta.begin(), grid.delta.end());
     for (std::size_t c = 0; c < grid.cells(); ++c) {
         q.volume += grid.volume[c];
-        double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-        for (std::size_t k = grid.first_face[c]; k < grid.first_face[c + 1]; ++k) {
-            const double area = norm(grid.area[grid.face[k]]);
-            smallest = std::min(smallest, area);
-            largest = std::max(largest, area);
-        }
-        raise(largest / smallest, grid.original[c], q.aspect, q.aspect_cell);
+        raise(grid.aspect[c], grid.original[c], q.aspect, q.aspect_cell);
     }
     add_faces(grid, q);
     return q;

@@ -2,7 +2,7 @@
 ///
 ///   non-orthogonality   angle between S and d, the vector from the left to the right cell's centre
 ///   skewness            |r_f - (the point where d meets the plane of the face)| / |d|
-///   aspect ratio        largest over smallest face area of a cell; of a box: longest over shortest edge
+///   aspect ratio        of the extents of a cell, directions of one cell left out
 ///   growth              larger over smaller volume of two neighbours
 ///
 /// All are perfect (0, 0, 1, 1) on equal cubes. Border faces, whose neighbour is a mirror image, do not count.

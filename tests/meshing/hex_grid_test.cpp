@@ -146,6 +146,7 @@ TEST(HexGrid, OneCellAcrossDoesNotLimitDelta) {
     const HexMesh sheet = box_mesh({0, 0, 0}, {4, 4, 0.01}, {4, 4, 1});
     for (const auto& periodic : {std::vector<PeriodicPair>{}, {{"z-", "z+"}}})
         for (const double delta : make_hex_grid(sheet, periodic).delta) EXPECT_NEAR(delta, 0.5, 1e-14);
+    EXPECT_NEAR(quality(make_hex_grid(sheet)).aspect, 1, 1e-12);
     for (const double delta : make_hex_grid(cubes(1, 1, 1)).delta) EXPECT_NEAR(delta, 0.25, 1e-15);
 }
 
@@ -274,7 +275,7 @@ TEST(HexQuality, CubesArePerfectAndSkewShows) {
     EXPECT_NEAR(perfect.volume, 8, 1e-13);
 
     // a sheared row: centres step by (1, 0.5) across faces whose normal is x
-    HexMesh sheared = box_mesh({0, 0, 0}, {3, 1, 1}, {3, 1, 1});
+    HexMesh sheared = box_mesh({0, 0, 0}, {3, 3, 1}, {3, 3, 1});
     for (Vec3d& x : sheared.nodes) x.y += 0.5 * x.x;
     const HexQuality q = quality(make_hex_grid(sheared));
     EXPECT_NEAR(q.nonorthogonality, std::atan(0.5) * 180 / M_PI, 1e-10);
