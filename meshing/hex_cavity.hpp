@@ -16,7 +16,7 @@ namespace hemoflux::meshing {
 struct CavityShape {
     double edge = 10;   ///< L
     int cells = 90480;  ///< about
-    double wall = 0.4;  ///< w: width of cells at a wall over that in the middle, 0.1 .. 1
+    double wall = 0.6;  ///< w: width of cells at a wall over that in the middle, 0.1 .. 1
 };
 
 /// A cube centred at the origin with the patches x-, x+, y-, y+, z-, z+, within 3 % of the number of cells from 3000

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <tuple>
 
 #include "exchange/error.hpp"
 #include "meshing/hex_periodic.hpp"
@@ -46,54 +48,68 @@ void check_nodes(const HexMesh& mesh) {
     }
 }
 
-/// Sides by their smallest node, so that the sides of one set of nodes are found in a short list.
+/// Sides by their nodes: those of one smallest node in a short sorted list.
 class SideTable {
   public:
-    explicit SideTable(const HexMesh& mesh) : mesh_(mesh), first_(mesh.nodes.size() + 1, 0) {
+    struct Entry {
+        Key key;
+        std::uint32_t side;
+    };
+
+    explicit SideTable(const HexMesh& mesh) : first_(mesh.nodes.size() + 1, 0) {
         const auto sides = static_cast<std::uint32_t>(6 * mesh.cells.size());
-        for (std::uint32_t s = 0; s < sides; ++s) ++first_[key(s)[0] + 1];
+        std::vector<Key> keys(sides);
+        for (std::uint32_t s = 0; s < sides; ++s) keys[s] = sorted(side_nodes(mesh, s));
+        for (const Key& key : keys) ++first_[key[0] + 1];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        sides_.resize(sides);
+        entries_.resize(sides);
         std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-        for (std::uint32_t s = 0; s < sides; ++s) sides_[next[key(s)[0]]++] = s;
+        for (std::uint32_t s = 0; s < sides; ++s) entries_[next[keys[s][0]]++] = {keys[s], s};
+        for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+            std::sort(entries_.begin() + first_[n], entries_.begin() + first_[n + 1],
+                      [](const Entry& a, const Entry& b) {
+                          return std::tie(a.key, a.side) < std::tie(b.key, b.side);
+                      });
     }
 
-    [[nodiscard]] Key key(std::uint32_t side) const { return sorted(side_nodes(mesh_, side)); }
+    /// All sides, those of the same nodes next to each other in ascending order.
+    [[nodiscard]] std::span<const Entry> all() const { return entries_; }
 
-    /// The sides of these sorted nodes, ascending; how many there are. The first three are in `found`.
-    int find(const Key& wanted, std::array<std::uint32_t, 3>& found) const {
-        if (wanted[0] + std::size_t{1} >= first_.size()) return 0;
-        int count = 0;
-        for (std::uint32_t i = first_[wanted[0]]; i < first_[wanted[0] + 1]; ++i) {
-            if (key(sides_[i]) != wanted) continue;
-            if (count < 3) found[static_cast<std::size_t>(count)] = sides_[i];
-            ++count;
-        }
-        return count;
+    /// The sides of these sorted nodes.
+    [[nodiscard]] std::span<const Entry> find(const Key& wanted) const {
+        if (wanted[0] + std::size_t{1} >= first_.size()) return {};
+        const std::span<const Entry> bucket(entries_.data() + first_[wanted[0]],
+                                            entries_.data() + first_[wanted[0] + 1]);
+        const auto low =
+            std::find_if(bucket.begin(), bucket.end(), [&](const Entry& e) { return e.key == wanted; });
+        const auto high = std::find_if(low, bucket.end(), [&](const Entry& e) { return e.key != wanted; });
+        return {low, high};
     }
 
   private:
-    const HexMesh& mesh_;
-    std::vector<std::uint32_t> first_, sides_;
+    std::vector<std::uint32_t> first_;
+    std::vector<Entry> entries_;
 };
 
 /// Joins the sides that have the same nodes.
-void link_sides(const HexMesh& mesh, const SideTable& table, HexTopology& out) {
-    const auto sides = static_cast<std::uint32_t>(6 * mesh.cells.size());
-    out.partner.assign(sides, none);
-    std::array<std::uint32_t, 3> found{};
-    for (std::uint32_t s = 0; s < sides; ++s) {
-        const int count = table.find(table.key(s), found);
-        if (count > 2)
+void link_sides(const SideTable& table, HexTopology& out) {
+    const std::span<const SideTable::Entry> all = table.all();
+    out.partner.assign(all.size(), none);
+    for (std::size_t i = 0; i < all.size();) {
+        std::size_t end = i + 1;
+        while (end < all.size() && all[end].key == all[i].key) ++end;
+        if (end - i > 2)
             throw InputError(fmt::format("{} cells share one face, the first three being {}, {} and {}",
-                                         count, found[0] / 6, found[1] / 6, found[2] / 6),
+                                         end - i, all[i].side / 6, all[i + 1].side / 6, all[i + 2].side / 6),
                              "a face has one cell on either side",
                              "Remove the cells that lie on one another");
-        if (count == 2 && found[0] == s) {
-            out.partner[s] = found[1];
-            out.partner[found[1]] = s;
-            out.links.push_back({s, found[1]});
+        if (end - i == 2) {
+            const std::uint32_t a = all[i].side, b = all[i + 1].side;
+            out.partner[a] = b;
+            out.partner[b] = a;
+            out.links.push_back({a, b});
         }
+        i = end;
     }
 }
 
@@ -102,7 +118,6 @@ std::vector<HexTopology::Patch> name_border(const HexMesh& mesh, const SideTable
                                             const HexTopology& topology) {
     std::vector<HexTopology::Patch> patches;
     std::vector<std::uint32_t> owner(topology.partner.size(), none);
-    std::array<std::uint32_t, 3> found{};
     for (const HexMesh::Patch& patch : mesh.patches) {
         const auto number = static_cast<std::uint32_t>(patches.size());
         for (const HexTopology::Patch& other : patches)
@@ -112,23 +127,23 @@ std::vector<HexTopology::Patch> name_border(const HexMesh& mesh, const SideTable
                                  "Give each patch its own name, or join the two");
         patches.push_back({patch.name, {}});
         for (std::size_t f = 0; f < patch.faces.size(); ++f) {
-            const int count = table.find(sorted(patch.faces[f]), found);
-            if (count != 1)
+            const std::span<const SideTable::Entry> found = table.find(sorted(patch.faces[f]));
+            if (found.size() != 1)
                 throw InputError(
                     fmt::format("face {} of patch \"{}\" is {}", f, patch.name,
-                                count == 0
-                                    ? "no face of a cell"
-                                    : fmt::format("between cells {} and {}", found[0] / 6, found[1] / 6)),
+                                found.empty() ? "no face of a cell"
+                                              : fmt::format("between cells {} and {}", found[0].side / 6,
+                                                            found[1].side / 6)),
                     "patches are made of faces of the border", "Take this surface out of the named groups");
-            if (owner[found[0]] != none)
+            const std::uint32_t side = found[0].side;
+            if (owner[side] != none)
                 throw InputError(
-                    fmt::format(
-                        "a face of {} is in patch \"{}\" and {}", describe_cell(mesh, found[0] / 6),
-                        patches[owner[found[0]]].name,
-                        owner[found[0]] == number ? "there again" : fmt::format("in \"{}\"", patch.name)),
+                    fmt::format("a face of {} is in patch \"{}\" and {}", describe_cell(mesh, side / 6),
+                                patches[owner[side]].name,
+                                owner[side] == number ? "there again" : fmt::format("in \"{}\"", patch.name)),
                     "every border face takes one boundary condition", "Name each surface once");
-            owner[found[0]] = number;
-            patches.back().sides.push_back(found[0]);
+            owner[side] = number;
+            patches.back().sides.push_back(side);
         }
         std::sort(patches.back().sides.begin(), patches.back().sides.end());
     }
@@ -167,7 +182,7 @@ HexTopology connect(const HexMesh& mesh, const std::vector<PeriodicPair>& period
     check_nodes(mesh);
     HexTopology out;
     const SideTable table(mesh);
-    link_sides(mesh, table, out);
+    link_sides(table, out);
     out.patches = name_border(mesh, table, out);
     for (const PeriodicPair& pair : periodic) glue(mesh, pair, out);
     return out;

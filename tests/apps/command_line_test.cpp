@@ -24,8 +24,9 @@ class CommandLine : public Program {
 };
 
 TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
-    for (const char* level : {"", "run", "mesh", "mesh grid", "mesh rbc", "membrane", "membrane relax",
-                              "membrane stretch", "schema"}) {
+    for (const char* level : {"", "run", "mesh", "mesh grid", "mesh rbc", "mesh hex", "mesh hex cube",
+                              "mesh hex cylinder", "mesh hex pipe", "mesh hex constriction", "mesh hex box",
+                              "mesh hex check", "membrane", "membrane relax", "membrane stretch", "schema"}) {
         const Outcome outcome = run(std::string(level) + " --help");
         EXPECT_EQ(outcome.code, 0) << level;
         EXPECT_NE(outcome.text.find("Example"), std::string::npos) << level << "\n" << outcome.text;
@@ -37,7 +38,7 @@ TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
 TEST_F(CommandLine, WrongCommandsAreBadInput) {
     expect_error("", 2, "hemoflux needs one of run, mesh, membrane, schema");
     expect_error("rnu case.toml", 2, "\"rnu\" is not a command");
-    expect_error("mesh rcb", 2, "hemoflux mesh has grid, rbc");
+    expect_error("mesh rcb", 2, "hemoflux mesh has grid, rbc, hex");
     expect_error("membrane", 2, "hemoflux membrane needs one of relax, stretch");
     expect_error("run --no-such-option", 2, "See hemoflux run --help");
     expect_error("run case.toml --threads -1", 2, "--threads");
@@ -158,6 +159,22 @@ TEST_F(CommandLine, MeshRbcPrintsSizesAndWrites) {
     EXPECT_TRUE(fs::exists(folder_ / "rbc.ply"));
     EXPECT_EQ(run("mesh rbc --nodes 100").code, 2);
     EXPECT_EQ(run("mesh rbc --nodes 42 --shape sphere -o rbc.xyz").code, 2);
+}
+
+TEST_F(CommandLine, MeshHexReportsQualityAndWrites) {
+    const Outcome made = run("mesh hex box --cells 6 5 4 --upper 3 2 1 --skew 0.03 --shuffle -o box.msh");
+    EXPECT_EQ(made.code, 0) << made.text;
+    EXPECT_NE(made.text.find("cells                120\n"), std::string::npos) << made.text;
+    EXPECT_NE(made.text.find("volume               6 L^3"), std::string::npos) << made.text;
+    EXPECT_NE(made.text.find("patch y+             24 faces"), std::string::npos) << made.text;
+    const Outcome checked = run("mesh hex check box.msh --scale 10 -o box.vtu");
+    EXPECT_EQ(checked.code, 0) << checked.text;
+    EXPECT_NE(checked.text.find("volume               6000 L^3"), std::string::npos) << checked.text;
+    EXPECT_TRUE(fs::exists(folder_ / "box.vtu"));
+    expect_error("mesh hex box --skew 1", 2, "turned inside out");
+    expect_error("mesh hex box -o box.stl", 2, "Use .msh (gmsh) or .vtu (VTK)");
+    expect_error("mesh hex check absent.msh", 4, "absent.msh");
+    expect_error("mesh hex sphere", 2, "cube, cylinder, pipe, constriction, box, check");
 }
 
 TEST_F(CommandLine, MembraneRelaxWritesItsFolder) {
