@@ -178,6 +178,12 @@ Case read_values(const toml::table& values) {
     if (const auto output = in.table("output")) {
         c.output = read_output(*output);
     }
+    if (const auto observables = in.table("observables")) {
+        c.observables = read_observables(*observables);
+    }
+    for (const Section& profile : in.tables("profile")) {
+        c.profiles.push_back(read_profile(profile));
+    }
     for (const Section& r : in.tables("reference")) {
         c.references.push_back(
             {r.text("observable"), r.maybe("low"), r.maybe("high"), r.maybe("value"), r.text("source")});

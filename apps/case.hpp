@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "membrane/shapes.hpp"
+#include "apps/case_observables.hpp"
 #include "meshing/rectilinear.hpp"
 
 namespace hemoflux::apps {
@@ -156,6 +157,8 @@ struct Case {
     NumericsInput numerics;
     MembraneInput membrane;
     OutputInput output;
+    std::optional<ObservablesInput> observables;
+    std::vector<ProfileInput> profiles;
     std::vector<ReferenceInput> references;
     std::string resolved;
     bool operator==(const Case&) const = default;

@@ -212,6 +212,19 @@ void check_references(const toml::table& values, const std::string& name) {
     }
 }
 
+void check_observables(const toml::table& values, const std::string& name) {
+    const bool fluid = values["kind"].value_or(std::string()) == "fluid";
+    if (values.contains("observables") && !fluid) {
+        refuse(name, "[observables] is given", "it measures a flow without cells",
+               "Remove it, or choose kind = \"fluid\"");
+    }
+    const toml::array* profiles = values["profile"].as_array();
+    if (profiles != nullptr && !profiles->empty() && !values.contains("observables")) {
+        refuse(name, "[[profile]] is given without [observables]",
+               "profiles are in units of its speed and length", "Add [observables]");
+    }
+}
+
 }  // namespace
 
 void check_rules(const toml::table& resolved, const std::string& name) {
@@ -220,6 +233,7 @@ void check_rules(const toml::table& resolved, const std::string& name) {
     check_boundary(resolved, name);
     check_time(resolved, name);
     check_cells(resolved, name);
+    check_observables(resolved, name);
     check_references(resolved, name);
 }
 

@@ -235,6 +235,8 @@ const Table& case_schema() {
           "",
           "kind membrane"},
          {"output", {table(output_table())}, "{}", "optional"},
+         {"observables", {table(observables_table())}, "", "kind fluid"},
+         {"profile", {table(profile_table()).of(Form::any)}, "", "kind fluid, with [observables]"},
          {"reference",
           {table({"reference",
                   "A published or computed number that the summary compares with.",

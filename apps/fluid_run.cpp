@@ -4,7 +4,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
+#include "apps/flow_observer.hpp"
 #include "apps/fluid_system.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/output/progress.hpp"
@@ -20,7 +22,7 @@ constexpr long long watch_interval = 25;
 class FluidRun {
   public:
     FluidRun(const Case& c, const RunOptions& options)
-        : case_(c), options_(options), system_(c), files_(c, options) {}
+        : case_(c), options_(options), system_(c), observer_(make_observer()), files_(c, options) {}
 
     int go() {
         const auto start = std::chrono::steady_clock::now();
@@ -32,6 +34,13 @@ class FluidRun {
     }
 
   private:
+    std::optional<FlowObserver> make_observer() {
+        if (!case_.observables) return std::nullopt;
+        const auto& [x, y, z] = system_.grid.axes;
+        const FlowBox box{{x.lower(), y.lower(), z.lower()}, {x.upper(), y.upper(), z.upper()}};
+        return FlowObserver(case_, system_.scales, box, system_.solver.options().gamma, system_.solver);
+    }
+
     [[nodiscard]] double interval(double strain) const {
         if (case_.output.interval) return *case_.output.interval;
         return case_.shear_rate ? strain / *case_.shear_rate : system_.plan.at(system_.plan.steps) / 20;
@@ -146,6 +155,10 @@ class FluidRun {
         s.observables["largest_speed_um_per_s"] =
             system_.solver.largest_speed() * system_.scales.velocity_um_per_s;
         s.observables["time_s"] = system_.plan.at(done_);
+        if (observer_) {
+            const std::string failed = observer_->observe(s, files_.folder());
+            if (!failed.empty()) files_.log().warn(failed);
+        }
         if (case_.shear_rate) {
             const double strain = system_.plan.at(done_) * *case_.shear_rate;
             s.conservation.mean_density_per_strain =
@@ -170,6 +183,7 @@ class FluidRun {
     const Case& case_;
     const RunOptions& options_;
     FluidSystem system_;  // before the files: a case that it refuses leaves nothing behind
+    std::optional<FlowObserver> observer_;
     RunFiles files_;
     long long done_ = 0;
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;

@@ -79,6 +79,9 @@ const Table& case_schema();
 
 /// Its table [[cell]].
 Table cell_table();
+/// Its tables [observables] and [[profile]].
+Table observables_table();
+Table profile_table();
 
 /// The known name nearest to `word` by edit distance, "" when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);

@@ -52,8 +52,9 @@ void remove_run(const fs::path& path) {
 }  // namespace
 
 bool is_run_file(const std::string& name) {
-    constexpr std::string_view fixed[] = {"resolved.toml", "summary.json", "history.csv", "stretch.csv",
-                                          "log.txt",       "fluid.pvd",    "cells.pvd"};
+    constexpr std::string_view fixed[] = {
+        "resolved.toml", "summary.json",     "history.csv",      "stretch.csv", "log.txt",    "fluid.pvd",
+        "cells.pvd",     "centreline_u.csv", "centreline_v.csv", "wall.csv",    "fields.vtr", "fields.vtu"};
     if (std::find(std::begin(fixed), std::end(fixed), name) != std::end(fixed)) return true;
     if (name.starts_with('.') && name.ends_with(".tmp")) return true;
 

@@ -70,7 +70,8 @@ std::string gnuplot_script(const PlotSpec& spec, const std::string& terminal,
     s += fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n",
                      quoted(spec.title), quoted(spec.x_label), quoted(spec.y_label));
     s += "set border 3 lc rgb '#404040'\nset tics nomirror out\nset grid lc rgb '#e0e0e0' lt 1\n"
-         "set key outside bottom center horizontal Left reverse noenhanced\nset datafile missing 'nan'\n";
+         "set key outside bottom center horizontal Left reverse noenhanced height 1\nset datafile missing "
+         "'nan'\n";
     if (spec.log_x) s += "set logscale x\n";
     if (spec.log_y) s += "set logscale y\n";
     s += fmt::format("set yrange {}\n", y_range(spec));
@@ -107,13 +108,18 @@ std::string gnuplot_script(const PlotSpec& spec, const std::string& terminal,
                             quoted(band.label)));
         }
     }
+    std::size_t points = 0;
     for (std::size_t c = 0; c < spec.curves.size(); ++c) {
         const Curve& curve = spec.curves[c];
         const char* colour = colours[c % std::size(colours)];
-        const std::string style = !curve.points ? "using 1:2 with lines lw 2"
-                                  : curve.y_error.empty()
-                                      ? "using 1:2 with points pointtype 7 pointsize 0.9"
-                                      : "using 1:2:3 with yerrorbars pointtype 7 pointsize 0.9";
+        // a filled dot, then open symbols around it, so that points on top of each other are all seen
+        constexpr int symbols[] = {7, 6, 4, 8, 10, 12};
+        const std::string symbol = fmt::format("pointtype {} pointsize {}",
+                                               symbols[points % std::size(symbols)], points == 0 ? 0.9 : 1.4);
+        if (curve.points) ++points;
+        const std::string style = !curve.points           ? "using 1:2 with lines lw 2"
+                                  : curve.y_error.empty() ? "using 1:2 with points " + symbol
+                                                          : "using 1:2:3 with yerrorbars " + symbol;
         add(fmt::format("$curve{} {} lc rgb '{}' title {}", c, style, colour, quoted(curve.label)));
     }
     return s + plots + "\n";
