@@ -191,7 +191,7 @@ LaplacianView Batch::laplacian() {
 
 bool Batch::try_compute_forces() {
     const ForceView w = view();
-    curvature_pass(w, scratch_);
+    membrane::compute_forces(w, scratch_);
     exchange::copy_to_host(sums_.data(), device_sums_.data(), cells_ * sizeof(CellSums));
     if (laplacian_bending()) {
         laplacian_pass(w, laplacian(), *laplacian_scratch_);
@@ -200,7 +200,6 @@ bool Batch::try_compute_forces() {
     }
     for (const CellSums& s : sums_)
         if (s.overstretched > 0 || s.degenerate > 0) return false;
-    force_pass(w);
     if (laplacian_bending()) laplacian_force_pass(w, laplacian());
     return true;
 }

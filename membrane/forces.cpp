@@ -1,85 +1,88 @@
 #include "membrane/forces.hpp"
 
-#include "membrane/area.hpp"
-#include "membrane/bending.hpp"
-#include "membrane/ring_kernels.hpp"
-#include "membrane/volume.hpp"
+#include "exchange/buffer.hpp"
+#include "membrane/curvature_task.hpp"
+#include "membrane/force_task.hpp"
 
 namespace hemoflux::membrane {
 namespace {
 
-/// Pass 2 for one chunk of vertices of one cell; `Triangles` for laws that pull on the triangles' areas.
-template <class Value, bool Triangles>
-struct ForceTask {
-    ForceView w;
+/// Both passes of one whole cell, whose data then stay in one core's cache between them.
+template <class Law>
+struct CellTask {
+    CurvatureTask<exchange::Pack, Law> first;
+    ForceTask<exchange::Pack, Law::triangles> second;
 
-    HEMOFLUX_INLINE void vertices(std::size_t cell, std::size_t v, double pressure, double tension,
-                                  double by_total_curvature) const {
-        const std::size_t base = cell * w.stride, here = base + v;
-        const std::size_t degrees = static_cast<std::size_t>(w.group_degree[v / exchange::row_alignment]);
-        const Value degree = load<Value>(w.degree + v), zero(0.0);
-        const Vec3<Value> r = load_position<Value>(w, here);
-        Vec3<Value> d = gather_position<Value>(w, cell, w.neighbour + v) - r, gradient{zero, zero, zero};
-        const Value s = load<Value>(w.by_curvature + here), q = load<Value>(w.by_area + here);
-        Value s_d = exchange::gather<Value>(w.by_curvature + base, w.neighbour + v);
-        Value q_d = exchange::gather<Value>(w.by_area + base, w.neighbour + v);
-        for (std::size_t i = 0; i < degrees; ++i) {
-            const auto inside = Value(static_cast<double>(i)) < degree;
-            const std::size_t row = i * w.stride + v, in = cell * w.slots * w.stride + row;
-            const int* index = w.neighbour + (i + 1) * w.stride + v;
-            const Vec3<Value> next = gather_position<Value>(w, cell, index) - r, rim = next - d;
-            const Value s_next = exchange::gather<Value>(w.by_curvature + base, index);
-            const Value q_next = exchange::gather<Value>(w.by_area + base, index);
-            const Vec3<Value> xi = cross(d, next);
-            const Value inverse = load<Value>(w.inverse_normal + in), size2 = dot(xi, xi);
-            // u_d and u_next of bending.hpp.
-            const Value u_d = -dot(d, rim), u_next = dot(next, rim);
-            const Value along_xi =
-                pressure / 6 + 0.5 * inverse * inverse * ((s - s_next) * u_d + (s - s_d) * u_next);
-            const Value strain = 0.5 * size2 * inverse * load<Value>(w.inverse_area0 + row) - 1.0;
-            Value surface =
-                tension + local_area_tension<Value>(w.k_local_area, strain) + (q + q_d + q_next) * (1.0 / 3);
-            if constexpr (Triangles) surface += load<Value>(w.triangle_tension + in);
-            const Value in_plane = 0.5 * inverse * surface;
-            const Value weight = 0.5 * (s + s_d) + by_total_curvature;
-            const Value along_d = weight * load<Value>(w.bend + in) + load<Value>(w.spring + in);
-            gradient += select(inside, along_xi, zero) * xi;
-            gradient += select(inside, in_plane, zero) * cross(xi, rim);
-            gradient -= select(inside, along_d, zero) * d;
-            d = next;
-            s_d = s_next;
-            q_d = q_next;
+    HEMOFLUX_FN void operator()(std::size_t cell) const {
+        const std::size_t chunks = chunks_of(first.w.stride);
+        CellSums sums;
+        for (std::size_t k = 0; k < chunks; ++k) {
+            first(cell * chunks + k);
+            sums += first.partial[cell * chunks + k];
         }
-        const auto real = zero < degree;
-        store(w.fx + here, select(real, -gradient.x, zero));
-        store(w.fy + here, select(real, -gradient.y, zero));
-        store(w.fz + here, select(real, -gradient.z, zero));
-    }
-
-    HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
-        const CellSums& sums = w.sums[cell];
-        const double pressure = volume_pressure(w.k_volume, sums.volume, w.volume0);
-        const double tension = area_tension(w.k_area, sums.area, w.total_area0) + w.linear_area;
-        const double by_total_curvature =
-            area_difference_by_curvature(w.k_area_difference, sums.total_curvature, w.total_curvature0,
-                                         w.total_area0) +
-            w.linear_curvature;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>)
-            vertices(cell, v, pressure, tension, by_total_curvature);
+        first.w.sums[cell] = sums;
+        if (sums.overstretched > 0) return;
+        for (std::size_t k = 0; k < chunks; ++k) second(cell * chunks + k);
     }
 };
 
+/// Cells for each thread from which whole cells are shared out, so that all threads end together.
+constexpr std::size_t cells_per_thread = 4;
+
+bool whole_cells(const ForceView& view) {
+    return !exchange::on_gpu &&
+           view.cells >= cells_per_thread * static_cast<std::size_t>(exchange::threads());
+}
+
+template <class Law>
+void run(const ForceView& view, const Law& law, CellSums* partial, exchange::Reduction<CellSums>& reduction) {
+    const CurvatureTask<exchange::Pack, Law> first{view, law, partial};
+    const ForceTask<exchange::Pack, Law::triangles> second{view};
+    const std::size_t chunks = chunks_of(view.stride);
+    if (whole_cells(view)) {
+        exchange::for_each_index(view.cells, CellTask<Law>{first, second}, cost_of(view));
+        return;
+    }
+    exchange::for_each_index(view.cells * chunks, first, cost_of(view));
+    reduction.sum_segments(view.cells, chunks, PartialSum{partial, chunks}, view.sums);
+    exchange::for_each_index(view.cells * chunks, second, cost_of(view));
+}
+
 }  // namespace
 
-void force_pass(const ForceView& view) {
-    const std::size_t tasks = view.cells * chunks_of(view.stride);
-    if (stores_triangle_tension(view.network.law))
-        exchange::for_each_index(tasks, ForceTask<exchange::Pack, true>{view}, cost_of(view));
-    else
-        exchange::for_each_index(tasks, ForceTask<exchange::Pack, false>{view}, cost_of(view));
+struct ForceScratch::Memory {
+    exchange::Buffer<CellSums> partial;
+    exchange::Reduction<CellSums> reduction;
+};
+
+ForceScratch::ForceScratch(std::size_t cells, std::size_t stride) : memory_(std::make_unique<Memory>()) {
+    memory_->partial = exchange::Buffer<CellSums>(cells * chunks_of(stride));
+}
+ForceScratch::~ForceScratch() = default;
+ForceScratch::ForceScratch(ForceScratch&&) noexcept = default;
+ForceScratch& ForceScratch::operator=(ForceScratch&&) noexcept = default;
+
+void compute_forces(const ForceView& view, ForceScratch& scratch) {
+    CellSums* partial = scratch.memory_->partial.data();
+    exchange::Reduction<CellSums>& reduction = scratch.memory_->reduction;
+    const double shear = view.network.shear, r = view.stretch_ratio;
+    switch (view.network.law) {
+        case InPlaneLaw::wlc:
+            run(view, SpringLaw<WormLikeChain>{WormLikeChain(shear, r)}, partial, reduction);
+            break;
+        case InPlaneLaw::wlc_power:
+            run(view, SpringLaw<PowerChain>{PowerChain(shear, r)}, partial, reduction);
+            break;
+        case InPlaneLaw::wlc_hydrostatic:
+            run(view, HydrostaticLaw{HydrostaticChain(shear, r)}, partial, reduction);
+            break;
+        case InPlaneLaw::neo_hookean:
+            run(view, ContinuumLaw<NeoHookean>{{shear}}, partial, reduction);
+            break;
+        case InPlaneLaw::skalak:
+            run(view, ContinuumLaw<Skalak>{{shear, view.network.skalak_ratio}}, partial, reduction);
+            break;
+    }
 }
 
 }  // namespace hemoflux::membrane

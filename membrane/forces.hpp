@@ -4,7 +4,7 @@
 /// dE/dA_j; pass 2 gathers the force -grad E of each vertex from its own ring (volume.hpp, area.hpp,
 /// bending.hpp, wlc.hpp,
 /// strain_energy.hpp). Every vertex is written by one task alone: no atomics, and the same bits for any
-/// number of threads.
+/// number of threads. Of many cells each is taken through both passes by one task, with the same bits.
 #pragma once
 
 #include <cstddef>
@@ -82,13 +82,11 @@ class ForceScratch {
   private:
     struct Memory;
     std::unique_ptr<Memory> memory_;
-    friend void curvature_pass(const ForceView& view, ForceScratch& scratch);
+    friend void compute_forces(const ForceView& view, ForceScratch& scratch);
 };
 
-/// Pass 1: fills view.sums, by_curvature, by_area and the slot data from the positions.
-void curvature_pass(const ForceView& view, ForceScratch& scratch);
-
-/// Pass 2: fills the forces; needs pass 1 at the same positions.
-void force_pass(const ForceView& view);
+/// Both passes: fills view.sums and the forces from the positions. The forces of a cell with overstretched > 0
+/// are undefined.
+void compute_forces(const ForceView& view, ForceScratch& scratch);
 
 }  // namespace hemoflux::membrane

@@ -59,7 +59,7 @@ TEST(Batch, IsBitwiseTheSameForAnyNumberOfThreadsWithEveryLawAndScheme) {
 }
 
 TEST(Batch, CellsAreIndependentOfTheirNeighboursInTheBatch) {
-    Batch many = test::rough_batch(2, 5), one = test::rough_batch(2);
+    Batch many = test::rough_batch(2, 5), one = test::rough_batch(2);  // five take the whole-cell route
     many.compute_forces();
     for (std::size_t c = 0; c < many.cells(); ++c) {
         one.set_positions(0, many.positions(c));

@@ -1,12 +1,12 @@
-#include "exchange/buffer.hpp"
+/// Pass 1 of the forces: the kernel over the rings of a chunk of vertices. Only kernel sources include it.
+#pragma once
+
 #include "membrane/area.hpp"
 #include "membrane/bending.hpp"
-#include "membrane/forces.hpp"
 #include "membrane/in_plane.hpp"
 #include "membrane/ring_kernels.hpp"
 
 namespace hemoflux::membrane {
-namespace {
 
 /// The sums of pass 1, lane by lane.
 template <class Value>
@@ -159,49 +159,5 @@ struct CurvatureTask {
         p.overstretched = exchange::lane_sum(s.overstretched);
     }
 };
-
-template <class Law>
-void run_curvature_pass(const ForceView& view, const Law& law, CellSums* partial) {
-    exchange::for_each_index(view.cells * chunks_of(view.stride),
-                             CurvatureTask<exchange::Pack, Law>{view, law, partial}, cost_of(view));
-}
-
-}  // namespace
-
-struct ForceScratch::Memory {
-    exchange::Buffer<CellSums> partial;
-    exchange::Reduction<CellSums> reduction;
-};
-
-ForceScratch::ForceScratch(std::size_t cells, std::size_t stride) : memory_(std::make_unique<Memory>()) {
-    memory_->partial = exchange::Buffer<CellSums>(cells * chunks_of(stride));
-}
-ForceScratch::~ForceScratch() = default;
-ForceScratch::ForceScratch(ForceScratch&&) noexcept = default;
-ForceScratch& ForceScratch::operator=(ForceScratch&&) noexcept = default;
-
-void curvature_pass(const ForceView& view, ForceScratch& scratch) {
-    CellSums* partial = scratch.memory_->partial.data();
-    const double shear = view.network.shear, r = view.stretch_ratio;
-    switch (view.network.law) {
-        case InPlaneLaw::wlc:
-            run_curvature_pass(view, SpringLaw<WormLikeChain>{WormLikeChain(shear, r)}, partial);
-            break;
-        case InPlaneLaw::wlc_power:
-            run_curvature_pass(view, SpringLaw<PowerChain>{PowerChain(shear, r)}, partial);
-            break;
-        case InPlaneLaw::wlc_hydrostatic:
-            run_curvature_pass(view, HydrostaticLaw{HydrostaticChain(shear, r)}, partial);
-            break;
-        case InPlaneLaw::neo_hookean:
-            run_curvature_pass(view, ContinuumLaw<NeoHookean>{{shear}}, partial);
-            break;
-        case InPlaneLaw::skalak:
-            run_curvature_pass(view, ContinuumLaw<Skalak>{{shear, view.network.skalak_ratio}}, partial);
-            break;
-    }
-    const std::size_t chunks = chunks_of(view.stride);
-    scratch.memory_->reduction.sum_segments(view.cells, chunks, PartialSum{partial, chunks}, view.sums);
-}
 
 }  // namespace hemoflux::membrane
