@@ -38,7 +38,7 @@ double frontal_area(const std::vector<fluid::WallFace>& faces, const Vec3d& stre
 
 }  // namespace
 
-void check_body(const BodyInput& body, fluid::Flow& flow) {
+void check_body(const BodyInput& body, const fluid::Flow& flow) {
     const auto patches = flow.patches();
     if (std::find(patches.begin(), patches.end(), body.patch) == patches.end())
         throw InputError(fmt::format("observables.body.patch = \"{}\"", body.patch),
@@ -51,7 +51,7 @@ void check_body(const BodyInput& body, fluid::Flow& flow) {
                          "Give two directions at a right angle");
 }
 
-void observe_body_flow(const BodyCase& body, fluid::Flow& flow, const fluid::Probe& probe,
+void observe_body_flow(const BodyCase& body, const fluid::Flow& flow, const fluid::Probe& probe,
                        output::Summary& summary, const output::OutputFolder& folder) {
     const auto faces = flow.wall_faces(body.input.patch);
     const Vec3d centre = body.input.centre ? vector(*body.input.centre) : middle_of(faces);

@@ -10,7 +10,7 @@
 namespace hemoflux::apps {
 
 /// InputError when the patch is not there or the directions are no frame.
-void check_body(const BodyInput& body, fluid::Flow& flow);
+void check_body(const BodyInput& body, const fluid::Flow& flow);
 
 /// A body and the units it is measured in.
 struct BodyCase {
@@ -27,7 +27,7 @@ struct BodyCase {
 /// units of rho U^2) and pressure_difference_pa into the summary, and writes wall.csv: angle_deg, x_um, y_um, z_um,
 /// pressure_coefficient and friction_coefficient, both in units of rho U^2 / 2. What the flow does not have (separation,
 /// a wake that flows back) is NaN.
-void observe_body_flow(const BodyCase& body, fluid::Flow& flow, const fluid::Probe& probe,
+void observe_body_flow(const BodyCase& body, const fluid::Flow& flow, const fluid::Probe& probe,
                        output::Summary& summary, const output::OutputFolder& folder);
 
 }  // namespace hemoflux::apps

@@ -40,7 +40,7 @@ std::string key_of(const ProfileInput& in) {
 }  // namespace
 
 FlowObserver::FlowObserver(const Case& c, const Scales& scales, const FlowBox& box, double gamma,
-                           fluid::Flow& flow)
+                           const fluid::Flow& flow)
     : case_(c), scales_(scales), box_(box), gamma_(gamma), flow_(flow), speed_(reference_speed(c)) {
     const auto& o = *c.observables;
     if (o.body) check_body(*o.body, flow);

@@ -24,7 +24,8 @@ class FlowObserver {
   public:
     /// Reads the reference profiles. gamma: of the solver, p = gamma rho / 3. InputError when they cannot be compared with, when a patch is not there or there
     /// is no reference speed; FileError.
-    FlowObserver(const Case& c, const Scales& scales, const FlowBox& box, double gamma, fluid::Flow& flow);
+    FlowObserver(const Case& c, const Scales& scales, const FlowBox& box, double gamma,
+                 const fluid::Flow& flow);
 
     /// Measures the flow as it stands, puts the observables into the summary (FIELD_profile_rms, and those of
     /// cavities and bodies) and writes centreline_u.csv, centreline_v.csv, wall.csv, and plots of the profiles where
@@ -52,7 +53,7 @@ class FlowObserver {
     Scales scales_;
     FlowBox box_;
     double gamma_;
-    fluid::Flow& flow_;
+    const fluid::Flow& flow_;
     double speed_, length_;
     std::vector<Line> lines_;
 };

@@ -71,10 +71,10 @@ class Flow {
     virtual std::size_t first_bad_cell() = 0;
 
     /// Gradients of density and velocity x, y, z at every cell, as the solver takes them.
-    [[nodiscard]] virtual std::vector<std::array<Vec3d, 4>> gradients() = 0;
+    [[nodiscard]] virtual std::vector<std::array<Vec3d, 4>> gradients() const = 0;
     /// The faces of a patch with the forces on what lies behind them. InputError when there is no such patch, or it is
     /// periodic.
-    [[nodiscard]] virtual std::vector<WallFace> wall_faces(const std::string& patch) = 0;
+    [[nodiscard]] virtual std::vector<WallFace> wall_faces(const std::string& patch) const = 0;
 
   protected:
     Flow() = default;

@@ -79,7 +79,7 @@ std::size_t side_number(const std::vector<std::string>& names, const std::string
 
 }  // namespace
 
-std::vector<std::array<Vec3d, 4>> Solver::gradients() {
+std::vector<std::array<Vec3d, 4>> Solver::gradients() const {
     const HostFields fields = host_fields(*this);
     const GradientMethod method = options_.gradient;
     const Derivative dx(grid_.ghosted_widths(0), method), dy(grid_.ghosted_widths(1), method),
@@ -99,7 +99,7 @@ std::vector<std::array<Vec3d, 4>> Solver::gradients() {
     return gradients;
 }
 
-std::vector<WallFace> Solver::wall_faces(const std::string& patch) {
+std::vector<WallFace> Solver::wall_faces(const std::string& patch) const {
     const std::size_t p = side_number(patches(), patch), normal = p / 2;
     if (grid_.periodic()[normal])
         throw InputError("patch \"" + patch + "\"", "it is periodic, so nothing lies behind it",

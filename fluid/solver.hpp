@@ -41,8 +41,8 @@ class Solver final : public Flow {
     [[nodiscard]] std::size_t cells() const override { return grid_.view().layout.cells(); }
     [[nodiscard]] Vec3d centre(std::size_t cell) const override;
     [[nodiscard]] double volume(std::size_t cell) const override;
-    [[nodiscard]] std::vector<std::array<Vec3d, 4>> gradients() override;
-    [[nodiscard]] std::vector<WallFace> wall_faces(const std::string& patch) override;
+    [[nodiscard]] std::vector<std::array<Vec3d, 4>> gradients() const override;
+    [[nodiscard]] std::vector<WallFace> wall_faces(const std::string& patch) const override;
     [[nodiscard]] std::vector<std::string> patches() const override;
     [[nodiscard]] std::vector<double> values(int component) const override;
     void set_values(int component, const std::vector<double>& values) override;
