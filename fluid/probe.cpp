@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "fluid/grid_interpolant.hpp"
+#include "fluid/hex_solver.hpp"
 #include "fluid/host_fields.hpp"
 
 namespace hemoflux::fluid {
@@ -40,6 +41,7 @@ std::unique_ptr<Probe> make_probe(const Solver& solver) { return std::make_uniqu
 
 std::unique_ptr<Probe> make_probe(const Flow& flow) {
     if (const auto* solver = dynamic_cast<const Solver*>(&flow)) return make_probe(*solver);
+    if (const auto* solver = dynamic_cast<const HexSolver*>(&flow)) return make_probe(*solver);
     throw std::invalid_argument("make_probe: unknown kind of flow");
 }
 

@@ -23,9 +23,14 @@ class Probe {
 };
 
 class Solver;
+class HexSolver;
 
 /// Cubic interpolation between cell centres and the sides with given values (see GridInterpolant).
 std::unique_ptr<Probe> make_probe(const Solver& solver);
+
+/// Moving least squares between cell centres and the faces with given values (see HexInterpolant). The solver must
+/// outlive the probe.
+std::unique_ptr<Probe> make_probe(const HexSolver& solver);
 
 /// The same for a flow of either kind; std::invalid_argument for a kind that has no probe.
 std::unique_ptr<Probe> make_probe(const Flow& flow);
