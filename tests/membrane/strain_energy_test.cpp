@@ -89,6 +89,30 @@ TEST(Skalak, SimpleShearInClosedForm) {
     }
 }
 
+/// A sphere blown up by l in radius: T = G (1 - l^-6), and T = G (l^2 - 1)(1 + C l^2 (l^2 + 1)); here from the
+/// nodal forces, 2 T A = -sum F.r.
+TEST(ContinuumLaws, InflationOfASphereInClosedForm) {
+    const auto sphere = meshing::icosphere(2, 2.0).vertices;
+    const auto topology = test::icosphere_topology(2);
+    for (const InPlaneLaw law : {InPlaneLaw::neo_hookean, InPlaneLaw::skalak})
+        for (const double l : {0.9, 1.1, 1.5}) {
+            Parameters p = continuum(law, 3);
+            p.constraint = {.volume = 0, .area = 0, .local_area = 0};
+            p.bending = {.local = 0, .area_difference = 0};
+            Batch batch(topology, p, reference_from_shape(*topology, sphere));
+            auto r = sphere;
+            for (Vec3d& q : r) q = l * q;
+            batch.set_positions(0, r);
+            batch.compute_forces();
+            double sum = 0;
+            for (std::size_t v = 0; v < r.size(); ++v) sum -= dot(batch.forces(0)[v], r[v]);
+            const double expected = law == InPlaneLaw::neo_hookean
+                                        ? 0.6 * (1 - std::pow(l, -6))
+                                        : 0.6 * (l * l - 1) * (1 + 3 * l * l * (l * l + 1));
+            EXPECT_NEAR(sum / (2 * batch.sums(0).area), expected, 1e-11) << l;
+        }
+}
+
 /// The law sees the rest triangle and no more: a patch of irregular triangles under an affine map has the same
 /// energy per rest area as the regular one.
 TEST(ContinuumLaws, DoNotDependOnTheShapeOfTheTriangles) {
