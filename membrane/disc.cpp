@@ -57,20 +57,54 @@ struct View {
     }
 };
 
-double thickness(const std::vector<Projected>& triangles, double u, double v) {
-    double low = std::numeric_limits<double>::infinity(), high = -low, height = 0;
-    for (const Projected& t : triangles)
-        if (meet(t, u, v, height)) {
-            low = std::min(low, height);
-            high = std::max(high, height);
+/// The triangles of a view by squares of its plane, so that a line along the axis meets few.
+class Raster {
+  public:
+    explicit Raster(const View& view) : triangles_(view.triangles) {
+        for (std::size_t i = 0; i < view.u.size(); ++i)
+            half_ = std::max({half_, std::fabs(view.u[i]), std::fabs(view.v[i])});
+        side_ = static_cast<long>(std::sqrt(static_cast<double>(triangles_.size()) / 4)) + 1;
+        squares_.resize(static_cast<std::size_t>(side_ * side_));
+        for (std::size_t k = 0; k < triangles_.size(); ++k) {
+            const auto [u0, u1] = std::minmax_element(triangles_[k].u.begin(), triangles_[k].u.end());
+            const auto [v0, v1] = std::minmax_element(triangles_[k].v.begin(), triangles_[k].v.end());
+            for (long i = place(*u0 - slack); i <= place(*u1 + slack); ++i)
+                for (long j = place(*v0 - slack); j <= place(*v1 + slack); ++j) square(i, j).push_back(k);
         }
-    return std::max(0.0, high - low);
-}
+    }
+
+    /// Greatest distance of two crossings of the line along the axis through (u, v); 0 outside the cell.
+    double thickness(double u, double v) {
+        double low = std::numeric_limits<double>::infinity(), high = -low, height = 0;
+        for (const std::size_t k : square(place(u), place(v)))
+            if (meet(triangles_[k], u, v, height)) {
+                low = std::min(low, height);
+                high = std::max(high, height);
+            }
+        return std::max(0.0, high - low);
+    }
+
+  private:
+    static constexpr double slack = 1e-9;  // um, more than the slack of meet()
+    [[nodiscard]] long place(double a) const {
+        return std::clamp(static_cast<long>(0.5 * (a / half_ + 1) * static_cast<double>(side_)), 0L,
+                          side_ - 1);
+    }
+    std::vector<std::size_t>& square(long i, long j) {
+        return squares_[static_cast<std::size_t>(i * side_ + j)];
+    }
+
+    const std::vector<Projected>& triangles_;
+    double half_ = 0;
+    long side_ = 1;
+    std::vector<std::vector<std::size_t>> squares_;
+};
 
 }  // namespace
 
 DiscMeasures disc_measures(const Triangles& triangles, const std::vector<Vec3d>& positions) {
     const View view(triangles, positions);
+    Raster raster(view);
     DiscMeasures d;
     constexpr int directions = 180;
     for (int k = 0; k < directions; ++k) {
@@ -82,10 +116,9 @@ DiscMeasures disc_measures(const Triangles& triangles, const std::vector<Vec3d>&
         }
         d.diameter = std::max(d.diameter, high - low);
     }
-    d.centre_thickness = thickness(view.triangles, 0, 0);
+    d.centre_thickness = raster.thickness(0, 0);
     for (std::size_t i = 0; i < view.u.size(); ++i)
-        d.greatest_thickness =
-            std::max(d.greatest_thickness, thickness(view.triangles, view.u[i], view.v[i]));
+        d.greatest_thickness = std::max(d.greatest_thickness, raster.thickness(view.u[i], view.v[i]));
     return d;
 }
 
@@ -97,6 +130,7 @@ std::vector<ThicknessSample> thickness_profile(const Triangles& triangles,
                              std::to_string(directions) + " directions",
                          "it needs two radii and one direction", "Ask for more");
     const View view(triangles, positions);
+    Raster raster(view);
     double rim = 0;  // mean over the directions of the furthest vertex
     for (int k = 0; k < directions; ++k) {
         const double x = std::cos(2 * pi * k / directions), y = std::sin(2 * pi * k / directions);
@@ -111,8 +145,7 @@ std::vector<ThicknessSample> thickness_profile(const Triangles& triangles,
                           .least = std::numeric_limits<double>::infinity()};
         for (int k = 0; k < directions; ++k) {
             const double angle = 2 * pi * k / directions;
-            const double t =
-                thickness(view.triangles, s.radius * std::cos(angle), s.radius * std::sin(angle));
+            const double t = raster.thickness(s.radius * std::cos(angle), s.radius * std::sin(angle));
             s.mean += t / directions;
             s.least = std::min(s.least, t);
             s.greatest = std::max(s.greatest, t);
