@@ -19,8 +19,11 @@ struct HexOutput {
     std::string file;
 };
 
-/// Checks and reports a mesh, then writes it.
-void finish(const meshing::HexMesh& mesh, const HexOutput& out) {
+/// Makes a mesh, checks and reports it, then writes it; a file name that cannot be used is refused first.
+template <class Make>
+void finish(const Make& make, const HexOutput& out) {
+    if (!out.file.empty()) meshing::check_hex_extension(out.file);
+    const meshing::HexMesh mesh = make();
     const meshing::HexGrid grid = make_hex_grid(mesh);
     fmt::print("{}", report(quality(grid), "L"));
     for (const meshing::HexGrid::Patch& patch : grid.patches)
@@ -50,7 +53,7 @@ void add_cube(CLI::App* hex) {
     kind->add_option("--edge", s->edge, "Edge of the cube");
     kind->add_option("--cells", s->cells, "Number of cells, about");
     kind->add_option("--wall", s->wall, "Width of cells at the walls over that in the middle");
-    kind->callback([=] { finish(cavity_mesh(*s), *out); });
+    kind->callback([=] { finish([&] { return cavity_mesh(*s); }, *out); });
 }
 
 void add_cylinder(CLI::App* hex) {
@@ -69,7 +72,7 @@ void add_cylinder(CLI::App* hex) {
                      "Height of the cells on the cylinder in D, for a scale of 1");
     kind->add_option("--scale", s->scale, "Multiplies all cell widths: 0.5 gives four times the cells");
     kind->add_option("--wake", s->wake, "How strongly cells gather in the wake, 0 to 0.9");
-    kind->callback([=] { finish(cylinder_mesh(*s), *out); });
+    kind->callback([=] { finish([&] { return cylinder_mesh(*s); }, *out); });
 }
 
 CLI::App* add_pipe_options(CLI::App* kind, const std::shared_ptr<meshing::PipeShape>& s) {
@@ -85,7 +88,7 @@ void add_pipes(CLI::App* hex) {
     const auto s = std::make_shared<meshing::PipeShape>();
     CLI::App* kind = add_kind(hex, "pipe", "Straight circular pipe along x; patches inlet, outlet, wall",
                               "pipe --length 4 --cells 20000 -o pipe.msh", out);
-    add_pipe_options(kind, s)->callback([=] { finish(pipe_mesh(*s), *out); });
+    add_pipe_options(kind, s)->callback([=] { finish([&] { return pipe_mesh(*s); }, *out); });
 
     const auto narrow = std::make_shared<meshing::PipeShape>();
     narrow->constriction = 0.5;
@@ -96,7 +99,7 @@ void add_pipes(CLI::App* hex) {
     throat->add_option("--depth", narrow->constriction, "Part of the radius that the throat takes away");
     throat->add_option("--throat", narrow->throat, "Place of the throat in D");
     throat->add_option("--throat-length", narrow->throat_length, "Length of the narrowed part in D");
-    add_pipe_options(throat, narrow)->callback([=] { finish(pipe_mesh(*narrow), *out); });
+    add_pipe_options(throat, narrow)->callback([=] { finish([&] { return pipe_mesh(*narrow); }, *out); });
 }
 
 struct BoxArguments {
@@ -121,8 +124,8 @@ void add_box(CLI::App* hex) {
     kind->add_option("--seed", s->distortion.seed, "Of the random numbers");
     kind->callback([=] {
         const auto corner = [](const std::vector<double>& x) { return Vec3d{x[0], x[1], x[2]}; };
-        finish(meshing::box_mesh(corner(s->lower), corner(s->upper), {s->cells[0], s->cells[1], s->cells[2]},
-                                 s->distortion),
+        const std::array<int, 3> cells{s->cells[0], s->cells[1], s->cells[2]};
+        finish([&] { return meshing::box_mesh(corner(s->lower), corner(s->upper), cells, s->distortion); },
                *out);
     });
 }
@@ -140,7 +143,7 @@ void add_check(CLI::App* hex) {
                  "check cylinder.msh -o cylinder.vtu", out);
     kind->add_option("file", s->file, "File to read (.msh or .vtu)")->required();
     kind->add_option("--scale", s->scale, "Multiplies all lengths");
-    kind->callback([=] { finish(meshing::read_hex_mesh(s->file, s->scale), *out); });
+    kind->callback([=] { finish([&] { return meshing::read_hex_mesh(s->file, s->scale); }, *out); });
 }
 
 }  // namespace

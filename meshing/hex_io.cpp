@@ -70,6 +70,8 @@ void drop_unused_nodes(HexMesh& mesh) {
 
 }  // namespace
 
+void check_hex_extension(const fs::path& path) { format_of(path); }
+
 HexMesh read_hex_mesh(const fs::path& path, double scale) {
     const Format& format = format_of(path);
     check_readable(path);

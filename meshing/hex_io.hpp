@@ -21,6 +21,9 @@ namespace hemoflux::meshing {
 /// for make_hex_grid to say.
 HexMesh read_hex_mesh(const std::filesystem::path& path, double scale = 1);
 
+/// InputError unless the extension is one that read_hex_mesh and write_hex_mesh know.
+void check_hex_extension(const std::filesystem::path& path);
+
 /// Writes a mesh with all digits (binary). InputError for an unknown extension, FileError if it cannot be written.
 void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh);
 
