@@ -38,6 +38,24 @@ bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) &&
 
 }  // namespace
 
+std::vector<char> idle_faces(const meshing::HexGrid& grid, const HexPatches& patches) {
+    std::vector<char> idle(grid.faces(), 0);
+    for (std::size_t f = 0; f < grid.interior_faces(); ++f) idle[f] = grid.left[f] == grid.right[f];
+    std::map<std::uint32_t, std::vector<std::size_t>> mirrors;  // planes of symmetry of each cell
+    for (const auto& range : grid.patches) {
+        const auto patch = patches.find(range.name);
+        if (patch == patches.end() || patch->second.velocity != VelocityCondition::symmetry) continue;
+        for (std::size_t f = range.first; f < range.first + range.count; ++f)
+            mirrors[grid.left[f]].push_back(f);
+    }
+    for (const auto& [cell, faces] : mirrors)
+        for (const std::size_t a : faces)
+            for (const std::size_t b : faces)
+                if (dot(grid.area[a], grid.area[b]) < -0.999 * norm(grid.area[a]) * norm(grid.area[b]))
+                    idle[a] = 1;
+    return idle;
+}
+
 HexBoundary::HexBoundary(const meshing::HexGrid& grid, HexPatches patches)
     : patches_(std::move(patches)), ranges_(grid.patches), first_(grid.interior_faces()) {
     check(ranges_, patches_);

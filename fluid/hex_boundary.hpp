@@ -25,6 +25,10 @@ namespace hemoflux::fluid {
 /// Conditions of the border patches by their names in the mesh. Periodic pairs are glued in the grid and are no patches.
 using HexPatches = std::map<std::string, Patch>;
 
+/// Faces (nonzero) across which nothing can move because the cells are one sheet: those by which a cell is its own
+/// periodic neighbour, and pairs of parallel planes of symmetry of one cell. They do not limit a time step.
+std::vector<char> idle_faces(const meshing::HexGrid& grid, const HexPatches& patches);
+
 /// What a ghost cell needs; value and slope: density, then velocity x, y, z.
 struct HexBorderFace {
     double normal[3];    ///< outward

@@ -7,16 +7,18 @@
 
 namespace hemoflux::fluid {
 
-HexGeometry::HexGeometry(const meshing::HexGrid& grid, GradientMethod method, double delta_max) {
+HexGeometry::HexGeometry(const meshing::HexGrid& grid, GradientMethod method, double delta_max,
+                         const std::vector<char>& idle) {
     view_.cells = grid.cells();
     view_.interior = grid.interior_faces();
     view_.faces = grid.faces();
     padded_faces_ = exchange::round_up(grid.faces(), face_block);
-    set_cells(grid, method);
+    set_cells(grid, method, idle);
     set_faces(grid, delta_max);
 }
 
-void HexGeometry::set_cells(const meshing::HexGrid& grid, GradientMethod method) {
+void HexGeometry::set_cells(const meshing::HexGrid& grid, GradientMethod method,
+                            const std::vector<char>& idle) {
     const std::vector<HexNeighbour> neighbours = hex_neighbours(grid);
     weight_ = exchange::Buffer<double>(gradient_weights(grid, neighbours, method));
     std::vector<std::uint32_t> cells, sides;
@@ -32,7 +34,7 @@ void HexGeometry::set_cells(const meshing::HexGrid& grid, GradientMethod method)
         Vec3d sum{0, 0, 0};
         for (std::size_t j = 0; j < hex_sides; ++j) {
             const HexNeighbour& n = neighbours[hex_sides * cell + j];
-            if (n.cell == cell) continue;  // a direction one cell thick: what leaves enters again
+            if (idle[n.face]) continue;
             const Vec3d& s = grid.area[n.face];
             sum += 0.5 * Vec3d{std::abs(s.x), std::abs(s.y), std::abs(s.z)};
         }

@@ -56,16 +56,18 @@ struct HexView {
 /// Owns the arrays behind a HexView.
 class HexGeometry {
   public:
-    /// delta_max: largest streaming distance allowed, in the grid's length unit. InputError where a cell is too distorted
+    /// delta_max: largest streaming distance allowed, in the grid's length unit. idle: see idle_faces() of
+    /// fluid/hex_boundary.hpp; these faces are left out of the projected areas. InputError where a cell is too distorted
     /// for its gradient.
-    HexGeometry(const meshing::HexGrid& grid, GradientMethod method, double delta_max = 1e300);
+    HexGeometry(const meshing::HexGrid& grid, GradientMethod method, double delta_max,
+                const std::vector<char>& idle);
 
     [[nodiscard]] const HexView& view() const { return view_; }
     /// Number of faces rounded up to whole blocks.
     [[nodiscard]] std::size_t padded_faces() const { return padded_faces_; }
 
   private:
-    void set_cells(const meshing::HexGrid& grid, GradientMethod method);
+    void set_cells(const meshing::HexGrid& grid, GradientMethod method, const std::vector<char>& idle);
     void set_faces(const meshing::HexGrid& grid, double delta_max);
 
     std::size_t padded_faces_ = 0;

@@ -36,7 +36,7 @@ const SolverOptions& checked(const SolverOptions& o) {
 HexSolver::HexSolver(meshing::HexGrid grid, const HexPatches& patches, const SolverOptions& options)
     : options_(checked(options)),
       grid_(std::move(grid)),
-      geometry_(grid_, options.gradient, delta_limit(options)),
+      geometry_(grid_, options.gradient, delta_limit(options), idle_faces(grid_, patches)),
       boundary_(grid_, patches),
       flux_(4 * geometry_.padded_faces()),
       rate_(4 * grid_.cells()) {
@@ -138,12 +138,13 @@ void HexSolver::runge_kutta(double dt, const double* local_dt, double advance) {
                    {factor[stage] * dt, weight[stage], true, stage == 0, false}, local_dt, values_.data());
     }
     evaluate_at(start + advance);
-    update_hex(cells(), base_.data(), rate_.data(), sum_.data(),
-               {dt / 6, weight[3], false, false, true}, local_dt, values_.data());
+    update_hex(cells(), base_.data(), rate_.data(), sum_.data(), {dt / 6, weight[3], false, false, true},
+               local_dt, values_.data());
 }
 
 double HexSolver::largest_step(double speed) const {
-    return stable_step(grid_, delta_limit(options_), options_.scheme, options_.nu, speed, options_.gamma);
+    return stable_step(grid_, delta_limit(options_), idle_faces(grid_, boundary_.patches()), options_.scheme,
+                       options_.nu, speed, options_.gamma);
 }
 
 void HexSolver::set_local_steps(double sigma, double c) {

@@ -64,7 +64,7 @@ class HexSolver final : public Flow {
     [[nodiscard]] std::vector<std::array<Vec3d, 4>> gradients() const override;
     /// The faces of a patch with the forces of the fluid on what lies behind it: the momentum flux through each face
     /// times gamma, less what is convected through it, split into pressure gamma (rho - 1) / 3 and the rest, the viscous
-    /// stress. std::invalid_argument when there is no such patch.
+    /// stress. InputError when there is no such patch.
     [[nodiscard]] std::vector<WallFace> wall_faces(const std::string& patch) const override;
 
     [[nodiscard]] const meshing::HexGrid& grid() const { return grid_; }

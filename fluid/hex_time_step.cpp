@@ -6,8 +6,8 @@
 
 namespace hemoflux::fluid {
 
-double stable_step(const meshing::HexGrid& grid, double delta_max, Scheme scheme, double nu, double speed,
-                   double gamma) {
+double stable_step(const meshing::HexGrid& grid, double delta_max, const std::vector<char>& idle,
+                   Scheme scheme, double nu, double speed, double gamma) {
     if (scheme == Scheme::factored)
         throw std::invalid_argument("stable_step: the factored scheme needs a rectilinear grid");
     const double sound = std::sqrt(speed * speed * (1 - gamma) + gamma * gamma / 3);
@@ -17,7 +17,7 @@ double stable_step(const meshing::HexGrid& grid, double delta_max, Scheme scheme
         double sum = 0, largest = 0;
         for (std::size_t s = grid.first_face[cell]; s < grid.first_face[cell + 1]; ++s) {
             const std::size_t f = grid.face[s];
-            if (grid.left[f] == grid.right[f]) continue;
+            if (idle[f]) continue;
             const Vec3d& a = grid.area[f];
             projection += 0.5 * Vec3d{std::abs(a.x), std::abs(a.y), std::abs(a.z)};
             const double stiffness = norm(a) / std::min(grid.delta[f], delta_max);

@@ -1,7 +1,7 @@
 // Forces on the border patches of an unstructured grid (4.22, 4.23).
 #include <cmath>
-#include <stdexcept>
 
+#include "exchange/error.hpp"
 #include "fluid/hex_solver.hpp"
 
 namespace hemoflux::fluid {
@@ -26,7 +26,7 @@ std::vector<WallFace> HexSolver::wall_faces(const std::string& patch) const {
     const meshing::HexGrid::Patch* range = nullptr;
     for (const auto& p : grid_.patches)
         if (p.name == patch) range = &p;
-    if (!range) throw std::invalid_argument("HexSolver::wall_faces: no patch " + patch);
+    if (!range) throw InputError("patch " + patch, "the mesh has no such patch", "name one of its patches");
     const HexView& view = geometry_.view();
     fill_ghost_values(view, boundary_.view(), values_.data());
     evaluate_gradients(view, fields());
