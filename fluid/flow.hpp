@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exchange/vec3.hpp"
+#include "fluid/compact_model.hpp"
 
 namespace hemoflux::fluid {
 
@@ -57,6 +58,26 @@ class Flow {
     virtual void evaluate() = 0;
     /// One time step of the solver's scheme; the time moves on by dt.
     virtual void step(double dt) = 0;
+    /// Chooses every cell's own step for steady flow, by (2.55) from the current state (see fluid/local_step.hpp).
+    /// sigma: Courant number; c: weight of the viscous radius.
+    virtual void set_local_steps(double sigma, double c) = 0;
+    /// One Runge-Kutta iteration (2.29) in which every cell takes its own step. Throws std::logic_error before
+    /// set_local_steps().
+    virtual void local_step() = 0;
+
+    /// Q = (rho, rho u, rho v, rho w) of all cells, one component after the other: q[c cells() + cell], device memory of
+    /// 4 cells() values.
+    virtual void read_conserved(double* q) const = 0;
+    /// Replaces density and velocity of all cells by those of Q, laid out as above.
+    virtual void write_conserved(const double* q) = 0;
+    /// The residual dQ/dt last evaluated, laid out as above.
+    virtual void read_residual(double* r) const = 0;
+    /// The local steps, one a cell, device memory.
+    virtual void read_local_steps(double* dt) const = 0;
+
+    /// The faces and boundary conditions as an implicit method sees them.
+    [[nodiscard]] virtual CompactModel compact_model() const = 0;
+
     /// Residual evaluations since construction.
     [[nodiscard]] virtual std::size_t evaluations() const = 0;
 

@@ -11,10 +11,6 @@
 namespace hemoflux::fluid {
 namespace {
 
-double delta_limit(const SolverOptions& o) {
-    return o.tau_floor > 0 ? 3 * o.nu / (o.gamma * o.tau_floor) : 1e300;
-}
-
 const SolverOptions& checked(const SolverOptions& o) {
     if (!(o.nu > 0))
         throw InputError(fmt::format("viscosity {}", o.nu), "it must be positive",
@@ -36,7 +32,7 @@ const SolverOptions& checked(const SolverOptions& o) {
 HexSolver::HexSolver(meshing::HexGrid grid, const HexPatches& patches, const SolverOptions& options)
     : options_(checked(options)),
       grid_(std::move(grid)),
-      geometry_(grid_, options.gradient, delta_limit(options), idle_faces(grid_, patches)),
+      geometry_(grid_, options.gradient, largest_delta(options), idle_faces(grid_, patches)),
       boundary_(grid_, patches),
       flux_(4 * geometry_.padded_faces()),
       rate_(4 * grid_.cells()) {
@@ -143,7 +139,7 @@ void HexSolver::runge_kutta(double dt, const double* local_dt, double advance) {
 }
 
 double HexSolver::largest_step(double speed) const {
-    return stable_step(grid_, delta_limit(options_), idle_faces(grid_, boundary_.patches()), options_.scheme,
+    return stable_step(grid_, largest_delta(options_), idle_faces(grid_, boundary_.patches()), options_.scheme,
                        options_.nu, speed, options_.gamma);
 }
 

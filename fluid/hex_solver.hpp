@@ -38,22 +38,14 @@ class HexSolver final : public Flow {
     /// Largest stable step of the solver's scheme for the given largest velocity magnitude, see fluid/hex_time_step.hpp.
     [[nodiscard]] double largest_step(double speed) const;
 
-    /// Chooses every cell's own step for steady flow, by (2.55) from the current state (see fluid/local_step.hpp).
-    /// sigma: Courant number; c: weight of the viscous radius.
-    void set_local_steps(double sigma, double c);
-    /// One Runge-Kutta iteration (2.29) in which every cell takes its own step. Throws std::logic_error before
-    /// set_local_steps().
-    void local_step();
-
-    /// Q = (rho, rho u, rho v, rho w) of all cells, one component after the other: q[c cells + cell], device memory of
-    /// 4 cells values.
-    void read_conserved(double* q) const;
-    /// Replaces density and velocity of all cells by those of Q, laid out as above.
-    void write_conserved(const double* q);
-    /// The residual dQ/dt last evaluated, laid out as above.
-    void read_residual(double* r) const;
-    /// The local steps, one a cell, device memory. std::logic_error before set_local_steps().
-    void read_local_steps(double* dt) const;
+    void set_local_steps(double sigma, double c) override;
+    void local_step() override;
+    void read_conserved(double* q) const override;
+    void write_conserved(const double* q) override;
+    void read_residual(double* r) const override;
+    /// std::logic_error before set_local_steps().
+    void read_local_steps(double* dt) const override;
+    [[nodiscard]] CompactModel compact_model() const override;
 
     ResidualNorm residual_norm() override;
     double mean_density() override;

@@ -3,17 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "exchange/error.hpp"
+#include "fluid/local_step.hpp"
 #include "fluid/update.hpp"
 
 namespace hemoflux::fluid {
-namespace {
 
-double delta_limit(const SolverOptions& o) {
+double largest_delta(const SolverOptions& o) {
     const double nu = o.smallest_nu > 0 ? o.smallest_nu : o.nu;
     return o.tau_floor > 0 ? 3 * nu / (o.gamma * o.tau_floor) : 1e300;
 }
+
+namespace {
 
 const SolverOptions& checked(const SolverOptions& o) {
     if (!(o.nu > 0))
@@ -29,7 +32,7 @@ const SolverOptions& checked(const SolverOptions& o) {
 
 Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, const SolverOptions& options)
     : options_(checked(options)),
-      grid_(grid, (check(patches), periodic_axes(patches)), delta_limit(options), options.gradient),
+      grid_(grid, (check(patches), periodic_axes(patches)), largest_delta(options), options.gradient),
       boundary_(patches, grid_),
       state_(grid_.view().layout, options.with_force, options.with_viscosity, options.nu),
       residual_(grid_.view().layout, false, false, 0) {
@@ -110,15 +113,19 @@ void Solver::evaluate_at(double t) {
     evaluate();
 }
 
-void Solver::step(double dt) {
-    const double start = time_;
+void Solver::fill_coefficients() {
     if (options_.with_force) boundary_.fill_force(grid_.view(), state_.view());
     if (options_.with_viscosity) boundary_.fill_viscosity(grid_.view(), state_.view());
+}
+
+void Solver::step(double dt) {
+    const double start = time_;
+    fill_coefficients();
     const exchange::Layout& layout = grid_.view().layout;
     const ResidualView r = residual_view(residual_);
     if (options_.scheme == Scheme::euler) {
         evaluate_at(start);
-        update(layout, state_.view(), r, r, {dt, 0, false, false, false}, state_.view());
+        update(layout, state_.view(), r, r, {dt, 0, false, false, false, nullptr}, state_.view());
     } else if (options_.scheme == Scheme::factored) {
         if (!factored_ || factored_->dt() != dt)
             factored_ =
@@ -127,12 +134,12 @@ void Solver::step(double dt) {
         factored_->solve(r);
         update_factored(layout, r, dt, state_.view());
     } else {
-        step_rk4(start, dt);
+        step_rk4(start, dt, dt, nullptr);
     }
     set_time(start + dt);
 }
 
-void Solver::step_rk4(double start, double dt) {
+void Solver::step_rk4(double start, double dt, double scale, const double* local_dt) {
     const exchange::Layout& layout = grid_.view().layout;
     const ResidualView r = residual_view(residual_);
     if (!base_) {
@@ -143,14 +150,29 @@ void Solver::step_rk4(double start, double dt) {
         exchange::copy_on_device(base_->view().q[c], state_.view().q[c], layout.size * sizeof(double));
     const ResidualView sum = residual_view(*sum_);
     const double time[4] = {start, start + dt / 2, start + dt / 2, start + dt};
-    const double advance[3] = {dt / 2, dt / 2, dt}, weight[4] = {1, 2, 2, 1};
+    const double advance[3] = {scale / 2, scale / 2, scale}, weight[4] = {1, 2, 2, 1};
     for (int stage = 0; stage < 3; ++stage) {
         evaluate_at(time[stage]);
-        update(layout, base_->view(), r, sum, {advance[stage], weight[stage], true, stage == 0, false},
-               state_.view());
+        update(layout, base_->view(), r, sum,
+               {advance[stage], weight[stage], true, stage == 0, false, local_dt}, state_.view());
     }
     evaluate_at(time[3]);
-    update(layout, base_->view(), r, sum, {dt / 6, weight[3], false, false, true}, state_.view());
+    update(layout, base_->view(), r, sum, {scale / 6, weight[3], false, false, true, local_dt},
+           state_.view());
+}
+
+void Solver::set_local_steps(double sigma, double c) {
+    if (local_dt_.size() == 0) {
+        local_dt_ = exchange::Buffer<double>(grid_.view().layout.size);
+        local_dt_.fill(0);
+    }
+    local_steps(grid_.view(), state_.view(), {sigma, c, options_.nu, options_.gamma}, local_dt_.data());
+}
+
+void Solver::local_step() {
+    if (local_dt_.size() == 0) throw std::logic_error("Solver::local_step: set_local_steps() comes first");
+    fill_coefficients();
+    step_rk4(time_, 0, 1, local_dt_.data());
 }
 
 void Solver::offer(exchange::FieldTable& table) const {

@@ -32,6 +32,9 @@ struct SolverOptions {
     GradientMethod gradient = GradientMethod::least_squares;
 };
 
+/// Largest streaming distance that keeps tau - 1/2 at its floor: 3 nu / (gamma tau_floor).
+double largest_delta(const SolverOptions& options);
+
 /// The flow solver on a rectilinear grid; cells are numbered x fastest.
 class Solver final : public Flow {
   public:
@@ -52,6 +55,14 @@ class Solver final : public Flow {
     /// Force and viscosity, if used, are taken as they stand in their fields. The factored scheme takes what changes
     /// in time at the end of the step.
     void step(double dt) override;
+
+    void set_local_steps(double sigma, double c) override;
+    void local_step() override;
+    void read_conserved(double* q) const override;
+    void write_conserved(const double* q) override;
+    void read_residual(double* r) const override;
+    void read_local_steps(double* dt) const override;
+    [[nodiscard]] CompactModel compact_model() const override;
 
     /// Evaluates R(Q) into residual().
     void evaluate() override;
@@ -77,8 +88,12 @@ class Solver final : public Flow {
     [[nodiscard]] FlowParameters flow_parameters() const;
     /// Takes what changes in time at a stage's time.
     void evaluate_at(double t);
-    void step_rk4(double start, double dt);
+    /// The four stages of (2.29) from time `start` to start + dt. A cell advances by `scale`, times its local_dt if that is
+    /// not null.
+    void step_rk4(double start, double dt, double scale, const double* local_dt);
     [[nodiscard]] ResidualView residual_view(const State& fields) const;
+    /// Ghost values of force and viscosity, where used.
+    void fill_coefficients();
 
     SolverOptions options_;
     Grid grid_;
@@ -86,6 +101,7 @@ class Solver final : public Flow {
     State state_, residual_;
     std::unique_ptr<State> base_, sum_;
     std::unique_ptr<Factored> factored_;
+    exchange::Buffer<double> local_dt_;
     std::size_t evaluations_ = 0;
     double time_ = 0, stage_time_ = 0;
 };

@@ -2,25 +2,13 @@
 
 #include "exchange/pack.hpp"
 #include "exchange/parallel.hpp"
+#include "fluid/row_kernel.hpp"
 
 namespace hemoflux::fluid {
 namespace {
 
 using exchange::load;
 using exchange::Pack;
-
-/// Base of the row kernels: position and number of valid cells of one pack.
-struct RowKernel {
-    exchange::Layout layout;
-    HEMOFLUX_INLINE std::size_t at(std::size_t row, std::size_t pack) const {
-        return layout.origin + row % layout.n[1] * layout.row + row / layout.n[1] * layout.plane +
-               pack * exchange::lanes<Pack>;
-    }
-    HEMOFLUX_INLINE std::ptrdiff_t count(std::size_t pack) const {
-        return static_cast<std::ptrdiff_t>(layout.n[0]) -
-               static_cast<std::ptrdiff_t>(pack * exchange::lanes<Pack>);
-    }
-};
 
 struct UpdateRow : RowKernel {
     StateView base, state;
@@ -31,15 +19,16 @@ struct UpdateRow : RowKernel {
         const std::size_t i = at(row, pack);
         const std::ptrdiff_t n = count(pack);
         const Pack rho = load<Pack>(base.q[0] + i);
+        const Pack step = p.local_dt ? p.a * load<Pack>(p.local_dt + i) : Pack(p.a);
         Pack increment[4];
         for (int c = 0; c < 4; ++c) {
             const Pack rate = load<Pack>(r.r[c] + i);
-            increment[c] = p.a * rate;
+            increment[c] = step * rate;
             if (p.accumulate || p.use_sum) {
                 Pack total = p.w * rate;
                 if (!p.first) total = total + load<Pack>(sum.r[c] + i);
                 if (p.accumulate) exchange::store_first(sum.r[c] + i, total, n);
-                if (p.use_sum) increment[c] = p.a * total;
+                if (p.use_sum) increment[c] = step * total;
             }
         }
         const Pack new_rho = rho + increment[0];
@@ -68,10 +57,6 @@ struct UpdateFactoredRow : RowKernel {
         exchange::store_first(state.q[0] + i, new_rho, n);
     }
 };
-
-std::size_t packs_per_row(const exchange::Layout& layout) {
-    return exchange::round_up(layout.n[0], exchange::lanes<Pack>) / exchange::lanes<Pack>;
-}
 
 }  // namespace
 

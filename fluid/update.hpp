@@ -8,10 +8,11 @@ namespace hemoflux::fluid {
 
 /// state <- base + increment, in conserved variables, where increment = a r. base and state may be the same
 /// fields. With `sum`, also sum <- (first ? 0 : sum) + w r; with `use_sum` the increment is a sum instead of
-/// a r.
+/// a r. With `local_dt` (a field in the state's layout) every cell's increment is multiplied by its own step.
 struct UpdateParameters {
     double a = 0, w = 0;
     bool accumulate = false, first = false, use_sum = false;
+    const double* local_dt = nullptr;
 };
 void update(const exchange::Layout& layout, const StateView& base, const ResidualView& r,
             const ResidualView& sum, const UpdateParameters& parameters, const StateView& state);

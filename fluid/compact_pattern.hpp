@@ -1,0 +1,36 @@
+/// Where the blocks of a compact Jacobian lie: one row a cell, one block for every neighbour across a face.
+///
+/// Rows are renumbered level by level: a row's level is one more than the highest level among its neighbours of lower
+/// number. Rows of one level do not depend on each other in an incomplete factorisation or a triangular solve, so they
+/// are done in parallel, and the result is that of the sequential order whatever the number of threads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fluid/compact_model.hpp"
+
+namespace hemoflux::fluid {
+
+/// Block rows without their diagonal. Row numbers are the new ones unless said otherwise.
+struct CompactPattern {
+    static constexpr std::uint32_t none = 0xffffffffu;
+
+    std::vector<std::uint32_t> level;    ///< first row of every level, and the number of rows
+    std::vector<std::uint32_t> cell;     ///< [row] number of the cell
+    std::vector<std::uint32_t> first;    ///< [row] first block of a row; one more entry for the end
+    std::vector<std::uint32_t> upper;    ///< [row] first block whose column is above the diagonal
+    std::vector<std::uint32_t> column;   ///< [block] ascending within a row
+    std::vector<std::uint32_t> reverse;  ///< [block] the block (column, row)
+    /// Per interior face of the model, in its order: the blocks (left, right) and (right, left), `none` for a face that
+    /// repeats a pair of cells, which is left out of the matrix.
+    std::vector<std::uint32_t> left_right, right_left;
+    std::vector<std::uint32_t> interior;      ///< numbers of the interior faces in the model
+    std::vector<std::uint32_t> border;        ///< numbers of the border faces, sorted by row
+    std::vector<std::uint32_t> first_border;  ///< [row] first entry of `border`; one more for the end
+};
+
+/// Builds the pattern of `cells` cells.
+CompactPattern make_compact_pattern(std::size_t cells, const std::vector<CompactFace>& faces);
+
+}  // namespace hemoflux::fluid
