@@ -10,9 +10,15 @@
 #if defined(__GNUC__)
 #define HEMOFLUX_INLINE HEMOFLUX_FN inline __attribute__((always_inline))
 #define HEMOFLUX_RESTRICT __restrict__
+#if defined(__clang__) || defined(__CUDACC__)
+#define HEMOFLUX_NOINLINE __attribute__((noinline))
+#else
+#define HEMOFLUX_NOINLINE __attribute__((noinline, noclone))
+#endif
 #else
 #define HEMOFLUX_INLINE HEMOFLUX_FN inline
 #define HEMOFLUX_RESTRICT
+#define HEMOFLUX_NOINLINE
 #endif
 
 namespace hemoflux::exchange {

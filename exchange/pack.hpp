@@ -1,9 +1,10 @@
-/// The value type of a kernel: a SIMD pack of doubles on the CPU, one double for a CUDA thread.
+/// The value type of a kernel: a SIMD pack of doubles (or floats) on the CPU, one double for a CUDA thread.
 /// A kernel templated on `Value` is written once with the functions below and runs as either.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 
 #include "exchange/macros.hpp"
 
@@ -18,30 +19,40 @@ inline constexpr std::size_t row_alignment = 8;
 
 #if defined(HEMOFLUX_BACKEND_CUDA)
 using Pack = double;
+using SinglePack = float;
 inline constexpr std::size_t pack_lanes = 1;
 #else
-/// As many doubles as one register of this machine holds; never wider.
+/// As many doubles (floats) as one register of this machine holds; never wider.
 using Pack = std::experimental::native_simd<double>;
+using SinglePack = std::experimental::native_simd<float>;
 inline constexpr std::size_t pack_lanes = Pack::size();
 #endif
 
-/// Number of values that `Value` carries side by side.
+/// Number and type of the values that `Value` carries side by side.
 template <class Value>
 struct Lanes {
     static constexpr std::size_t count = 1;
+    using Type = Value;
 };
 #if !defined(HEMOFLUX_BACKEND_CUDA)
-template <>
-struct Lanes<Pack> {
-    static constexpr std::size_t count = pack_lanes;
+template <class T, class Abi>
+struct Lanes<std::experimental::simd<T, Abi>> {
+    static constexpr std::size_t count = std::experimental::simd<T, Abi>::size();
+    using Type = T;
 };
 #endif
 template <class Value>
 inline constexpr std::size_t lanes = Lanes<Value>::count;
+/// double or float.
+template <class Value>
+using Scalar = typename Lanes<Value>::Type;
+/// Whether `Value` is single precision.
+template <class Value>
+inline constexpr bool is_single = std::is_same_v<Scalar<Value>, float>;
 
 /// lanes<Value> consecutive values from p (no alignment needed).
 template <class Value>
-HEMOFLUX_INLINE Value load(const double* p) {
+HEMOFLUX_INLINE Value load(const Scalar<Value>* p) {
     if constexpr (lanes<Value> == 1) {
         return *p;
     } else {
@@ -53,7 +64,7 @@ HEMOFLUX_INLINE Value load(const double* p) {
 
 /// Writes all lanes of v to p (no alignment needed).
 template <class Value>
-HEMOFLUX_INLINE void store(double* p, const Value& v) {
+HEMOFLUX_INLINE void store(Scalar<Value>* p, const Value& v) {
     if constexpr (lanes<Value> == 1) {
         *p = v;
     } else {
@@ -65,7 +76,7 @@ HEMOFLUX_INLINE void store(double* p, const Value& v) {
 
 /// Writes the first `count` lanes of v to p and leaves the rest alone; count >= lanes writes all.
 template <class Value>
-HEMOFLUX_INLINE void store_first(double* p, const Value& v, std::ptrdiff_t count) {
+HEMOFLUX_INLINE void store_first(Scalar<Value>* p, const Value& v, std::ptrdiff_t count) {
     if constexpr (lanes<Value> == 1) {
         if (count > 0) *p = v;
     } else {
@@ -77,6 +88,14 @@ HEMOFLUX_INLINE void store_first(double* p, const Value& v, std::ptrdiff_t count
         }
 #endif
     }
+}
+
+/// Asks for the line at p ahead of its use; nothing on a GPU.
+template <class T>
+HEMOFLUX_INLINE void prefetch([[maybe_unused]] const T* p) {
+#if defined(__GNUC__) && !defined(__CUDACC__)
+    __builtin_prefetch(p, 0, 3);
+#endif
 }
 
 /// Values p[index[0]], p[index[1]], ... of one pack.

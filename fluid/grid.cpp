@@ -29,6 +29,23 @@ std::vector<double> with_ghosts(const std::vector<double>& widths, bool periodic
     return all;
 }
 
+/// Half the width of the cells if they are cubes and delta_max leaves them their streaming distance, else 0.
+/// An axis one cell thick may have any width if it is periodic: nothing changes along it.
+double cubic_delta(const meshing::RectilinearGrid& grid, const std::array<bool, 3>& periodic,
+                   double delta_max) {
+    double width = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const meshing::Axis& axis = grid.axes[a];
+        if (!axis.uniform()) return 0;
+        if (axis.cells() == 1 && periodic[a]) continue;
+        const double of_axis = axis.length() / static_cast<double>(axis.cells());
+        if (width > 0 && std::abs(of_axis - width) > 1e-12 * width) return 0;
+        if (axis.cells() == 1) return 0;
+        width = of_axis;
+    }
+    return width / 2 <= delta_max ? width / 2 : 0;
+}
+
 }  // namespace
 
 Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, double delta_max,
@@ -78,6 +95,7 @@ Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, d
             *slots[s] = buffers_.back().data() + shift;
         }
     }
+    view_.delta = cubic_delta(grid, periodic, delta_max);
     for (std::size_t a = 0; a < 3; ++a) {
         const auto limit = [&](std::size_t axis, double share) {
             return grid.axes[axis].cells() > 1 ? share * grid.axes[axis].smallest() : unlimited;

@@ -39,6 +39,8 @@ struct AxisView {
 struct GridView {
     exchange::Layout layout;
     AxisView axis[3];
+    double delta =
+        0;  ///< streaming distance on every face, half the width, where all cells are cubes; else 0
 };
 
 /// Owns the arrays behind a GridView.

@@ -1,5 +1,7 @@
 #include "fluid/residual.hpp"
 
+#include <algorithm>
+
 #include "exchange/parallel.hpp"
 #include "fluid/cell_residual.hpp"
 #include "fluid/tile_residual.hpp"
@@ -7,36 +9,46 @@
 namespace hemoflux::fluid {
 namespace {
 
-enum class Arrangement { tiles, cells };
-
+/// Tiles for `threads` threads: as tall as can be, for what two tiles share is computed twice, but enough of
+/// them for every thread.
 template <class F>
-void launch(Arrangement arrangement, const Balance<F>& balance) {
+void launch_tiles(const Balance<F>& balance) {
     const auto& n = balance.grid.layout.n;
-    if constexpr (!exchange::on_gpu) {
-        if (arrangement == Arrangement::tiles) {
-            const Split sx(n[0], max_segment, exchange::row_alignment, false), sy(n[1], max_rows, 1, true),
-                sz(n[2], max_rows, 1, true);
-            exchange::for_each_index(sx.pieces * sy.pieces * sz.pieces, TileResidual<F>{balance, sx, sy, sz});
-            return;
-        }
-    }
-    exchange::for_each_index(n[0] * n[1] * n[2], CellResidual<F>{balance});
+    const Split sx(n[0], max_segment, exchange::row_alignment), sy(n[1], max_rows, 1);
+    const auto threads = static_cast<std::size_t>(exchange::threads());
+    constexpr std::size_t tiles_per_thread = 4, least_planes = 4;
+    const std::size_t wanted = threads == 1 ? 1 : tiles_per_thread * threads / (sx.pieces * sy.pieces) + 1;
+    const Split sz(n[2], std::max((n[2] + wanted - 1) / wanted, least_planes), 1);
+    exchange::for_each_index(sx.pieces * sy.pieces * sz.pieces, TileResidual<F>{balance, sx, sy, sz});
 }
 
+template <class F>
+struct ByTiles {
+    static void launch(const Balance<F>& balance) {
+        if constexpr (!exchange::on_gpu) launch_tiles(balance);
+    }
+};
+
+template <class F>
+struct ByCells {
+    static void launch(const Balance<F>& balance) {
+        exchange::for_each_index(balance.grid.layout.cells(), CellResidual<F>{balance});
+    }
+};
+
 /// Turns the run-time choices into template arguments, one at a time.
-template <bool... Chosen, class... Rest>
-void dispatch(Arrangement arrangement, const GridView& grid, const StateView& state,
-              const BoundaryView& boundary, const FlowParameters& parameters, const ResidualView& out,
-              Rest... rest) {
+template <template <class> class Arrangement, bool... Chosen, class... Rest>
+void dispatch(const GridView& grid, const StateView& state, const BoundaryView& boundary,
+              const FlowParameters& parameters, const ResidualView& out, Rest... rest) {
     if constexpr (sizeof...(Rest) == 0) {
-        launch(arrangement,
-               Balance<Features<Chosen...>>{grid, state, boundary, parameters, out, 1 / parameters.gamma});
+        using F = Features<Chosen...>;
+        Arrangement<F>::launch(Balance<F>{grid, state, boundary, parameters, out, 1 / parameters.gamma});
     } else {
         const auto next = [&](bool first, auto... others) {
             if (first)
-                dispatch<Chosen..., true>(arrangement, grid, state, boundary, parameters, out, others...);
+                dispatch<Arrangement, Chosen..., true>(grid, state, boundary, parameters, out, others...);
             else
-                dispatch<Chosen..., false>(arrangement, grid, state, boundary, parameters, out, others...);
+                dispatch<Arrangement, Chosen..., false>(grid, state, boundary, parameters, out, others...);
         };
         next(rest...);
     }
@@ -44,17 +56,18 @@ void dispatch(Arrangement arrangement, const GridView& grid, const StateView& st
 
 }  // namespace
 
-void evaluate_residual(const GridView& grid, bool uniform, const StateView& state,
-                       const BoundaryView& boundary, const FlowParameters& p, const ResidualView& out) {
-    dispatch<>(Arrangement::tiles, grid, state, boundary, p, out, uniform, p.with_viscosity, p.with_force,
-               p.gamma != 1);
+void evaluate_residual(const GridView& grid, const StateView& state, const BoundaryView& boundary,
+                       const FlowParameters& p, const ResidualView& out) {
+    if constexpr (exchange::on_gpu)
+        evaluate_residual_by_cell(grid, state, boundary, p, out);
+    else
+        dispatch<ByTiles>(grid, state, boundary, p, out, grid.delta > 0, p.with_viscosity, p.with_force,
+                          p.gamma != 1);
 }
 
-void evaluate_residual_by_cell(const GridView& grid, bool uniform, const StateView& state,
-                               const BoundaryView& boundary, const FlowParameters& p,
-                               const ResidualView& out) {
-    dispatch<>(Arrangement::cells, grid, state, boundary, p, out, uniform, p.with_viscosity, p.with_force,
-               p.gamma != 1);
+void evaluate_residual_by_cell(const GridView& grid, const StateView& state, const BoundaryView& boundary,
+                               const FlowParameters& p, const ResidualView& out) {
+    dispatch<ByCells, false>(grid, state, boundary, p, out, p.with_viscosity, p.with_force, p.gamma != 1);
 }
 
 }  // namespace hemoflux::fluid

@@ -28,14 +28,12 @@ struct ResidualView {
 
 /// Evaluates R for all interior cells. Ghost cells of the state (and of force and viscosity, if used) must be
 /// filled.
-void evaluate_residual(const GridView& grid, bool uniform, const StateView& state,
-                       const BoundaryView& boundary, const FlowParameters& parameters,
-                       const ResidualView& out);
+void evaluate_residual(const GridView& grid, const StateView& state, const BoundaryView& boundary,
+                       const FlowParameters& parameters, const ResidualView& out);
 
 /// The same cell by cell, each face computed twice, in plain doubles: how a CUDA thread does it, and the
 /// reference that tests and benchmarks compare with.
-void evaluate_residual_by_cell(const GridView& grid, bool uniform, const StateView& state,
-                               const BoundaryView& boundary, const FlowParameters& parameters,
-                               const ResidualView& out);
+void evaluate_residual_by_cell(const GridView& grid, const StateView& state, const BoundaryView& boundary,
+                               const FlowParameters& parameters, const ResidualView& out);
 
 }  // namespace hemoflux::fluid

@@ -96,7 +96,7 @@ ResidualView Solver::residual_view(const State& fields) const {
 
 void Solver::evaluate() {
     boundary_.fill(grid_.view(), state_.view());
-    evaluate_residual(grid_.view(), grid_.uniform(), state_.view(), boundary_.view(), flow_parameters(),
+    evaluate_residual(grid_.view(), state_.view(), boundary_.view(), flow_parameters(),
                       residual_view(residual_));
     ++evaluations_;
 }

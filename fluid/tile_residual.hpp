@@ -1,21 +1,26 @@
-/// The residual on the CPU: one task is a tile of rows, every face flux is computed once.
+/// The residual on the CPU: one task is a tile of rows, every face flux in it is computed once.
+///
+/// Rows are visited plane by plane. What faces share of a cell (cell_row.hpp) is computed as its row comes up;
+/// then the fluxes through the row's x faces and through its lower y and z faces, which complete the balance
+/// of the row below. Of the rows before, only the last of this plane's fluxes and the last plane is kept.
 #pragma once
+
+#include <utility>
 
 #include "exchange/pack.hpp"
 #include "fluid/balance.hpp"
+#include "fluid/cell_row.hpp"
 
 namespace hemoflux::fluid {
 
-/// Longest piece of an x row, and most rows each way, that a tile covers.
-constexpr std::size_t max_segment = 128, max_rows = 16;
+/// Most rows of a tile in one plane.
+constexpr std::size_t max_rows = 20;
 
-/// Even split of n cells into pieces of at most `most`; the number of pieces never depends on the thread
-/// count.
+/// Even split of n cells into pieces of at most `most`.
 struct Split {
     std::size_t pieces, size, n;
-    Split(std::size_t count, std::size_t most, std::size_t multiple, bool even) : n(count) {
+    Split(std::size_t count, std::size_t most, std::size_t multiple) : n(count) {
         pieces = (n + most - 1) / most;
-        if (even && pieces > 1) pieces += pieces % 2;
         size = exchange::round_up((n + pieces - 1) / pieces, multiple);
         pieces = (n + size - 1) / size;
     }
@@ -27,81 +32,132 @@ struct Split {
     }
 };
 
-/// One tile of rows. Fluxes through low y and z faces come from buffers; those on the tile's low border are
-/// recomputed.
+/// One tile of rows: cells i0 .. i1 - 1 of the rows j0 .. j1 - 1 in the planes k0 .. k1 - 1. Functions of one
+/// row are compiled once and on their own, so that a flux is the same to the last bit in whatever tile it is
+/// computed.
 template <class F>
 struct TileResidual {
     Balance<F> balance;
     Split sx, sy, sz;
 
-    using Row = double[4][max_segment + 2 * exchange::row_alignment];
     using Pack = exchange::Pack;
-    static constexpr auto w = static_cast<std::ptrdiff_t>(exchange::lanes<exchange::Pack>);
+    using Real = exchange::Scalar<Pack>;
+    using Cells = CellRow<F, Real>;
+    static constexpr auto w = static_cast<std::ptrdiff_t>(exchange::lanes<Pack>);
 
-    template <int Axis>
-    HEMOFLUX_INLINE void fill(Row& row, std::ptrdiff_t i0, std::ptrdiff_t i1, std::ptrdiff_t j,
+    /// Fluxes through one kind of face of one row piece.
+    struct Fluxes {
+        alignas(64) Real values[4][Cells::pitch];
+    };
+    struct Range {
+        std::ptrdiff_t i0, i1;
+    };
+
+    template <class Value>
+    HEMOFLUX_INLINE void cell(Cells& row, const Range& r, std::ptrdiff_t i, std::ptrdiff_t j,
                               std::ptrdiff_t k) const {
-        for (std::ptrdiff_t i = i0; i < i1; i += w) {
-            Quad<Pack> q = balance.template flux<Pack, Axis>(i, j, k);
-            balance.template prescribe_mass<Pack, Axis>(q, Axis == 1 ? j : k, i, Axis == 1 ? k : j);
-            for (int c = 0; c < 4; ++c) exchange::store(&row[c][i - i0], q.c[c]);
+        const std::ptrdiff_t ijk[3] = {i, j, k};
+        row.template compute<Value>(balance.grid, balance.state, balance.inv_gamma, i - r.i0,
+                                    balance.grid.layout.at(i, j, k), ijk);
+    }
+
+    /// The cells i0 .. i1 - 1 of one row.
+    HEMOFLUX_NOINLINE void cells(Cells& row, Range r, std::ptrdiff_t j, std::ptrdiff_t k) const {
+        for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) cell<Pack>(row, r, i, j, k);
+    }
+
+    /// The cells i0 - 1 and i1 beside them, as far as they did not come with whole packs.
+    HEMOFLUX_NOINLINE void end_cells(Cells& row, Range r, std::ptrdiff_t j, std::ptrdiff_t k) const {
+        cell<Real>(row, r, r.i0 - 1, j, k);
+        if ((r.i1 - r.i0) % w == 0) cell<Real>(row, r, r.i1, j, k);
+    }
+
+    template <class Value>
+    HEMOFLUX_INLINE void x_flux(Fluxes& x, const Cells& row, const Range& r, std::ptrdiff_t i,
+                                std::ptrdiff_t j, std::ptrdiff_t k) const {
+        const std::ptrdiff_t left[3] = {i - 1, j, k};
+        const Quad<Value> q =
+            Cells::template flux<Value, 0>(balance.template loader<Value, 0>(), row, row, i - 1 - r.i0,
+                                           balance.grid.layout.at(i - 1, j, k), left);
+        for (int c = 0; c < 4; ++c) exchange::store(&x.values[c][i - r.i0], q.c[c]);
+    }
+
+    /// Fluxes through all x faces of one row, and what they and the body force give to R.
+    HEMOFLUX_NOINLINE void x_faces(const Cells& row, Range r, std::ptrdiff_t j, std::ptrdiff_t k) const {
+        Fluxes x;
+        for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) x_flux<Pack>(x, row, r, i, j, k);
+        if ((r.i1 - r.i0) % w == 0) x_flux<Real>(x, row, r, r.i1, j, k);
+        for (const std::ptrdiff_t face : {r.i0, r.i1}) {
+            Quad<Real> mass{{x.values[0][face - r.i0], 0, 0, 0}};
+            balance.template prescribe_mass<Real, 0>(mass, face - 1, j, k);
+            x.values[0][face - r.i0] = mass.c[0];
+        }
+        for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) {
+            const std::size_t at = balance.grid.layout.at(i, j, k);
+            const Pack inv_dx = exchange::load<Pack>(balance.grid.axis[0].inverse + i);
+            for (int c = 0; c < 4; ++c) {
+                const Real* face = &x.values[c][i - r.i0];
+                Pack rate = (exchange::load<Pack>(face) - exchange::load<Pack>(face + 1)) * inv_dx;
+                if constexpr (F::force)
+                    if (c > 0) rate = rate + balance.template source<Pack>(at, c);
+                exchange::store_first(balance.out.r[c] + at, rate, r.i1 - i);
+            }
         }
     }
 
-    /// Fluxes through the x faces i0 - 1/2 .. i1 - 1/2 of one row.
-    HEMOFLUX_INLINE void fill_x(Row& row, std::ptrdiff_t i0, std::ptrdiff_t i1, std::ptrdiff_t j,
-                                std::ptrdiff_t k) const {
-        std::ptrdiff_t i = i0 - 1;
-        if ((i1 - i0) % w ==
-            0) {  // one face more than whole packs: do it alone instead of as a nearly empty pack
-            const Quad<double> q = balance.template flux<double, 0>(i, j, k);
-            for (int c = 0; c < 4; ++c) row[c][0] = q.c[c];
-            ++i;
+    /// Fluxes through the faces between two rows, of which the upper is row (j, k); what they, with those
+    /// through the other side of the lower row (in `kept`), give to R of the lower row, if `complete`; and
+    /// keeps them for the upper row's turn.
+    template <int Axis>
+    HEMOFLUX_NOINLINE void faces(Fluxes& kept, const Cells& low, const Cells& high, Range r, std::ptrdiff_t j,
+                                 std::ptrdiff_t k, bool complete) const {
+        const std::ptrdiff_t lj = Axis == 1 ? j - 1 : j, lk = Axis == 2 ? k - 1 : k;
+        const Pack inverse(balance.grid.axis[Axis].inverse[Axis == 1 ? lj : lk]);
+        for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) {
+            const std::ptrdiff_t left[3] = {i, lj, lk};
+            const std::size_t at = balance.grid.layout.at(i, lj, lk);
+            Quad<Pack> q = Cells::template flux<Pack, Axis>(balance.template loader<Pack, Axis>(), low, high,
+                                                            i - r.i0, at, left);
+            balance.template prescribe_mass<Pack, Axis>(q, Axis == 1 ? lj : lk, i, Axis == 1 ? k : j);
+            for (int c = 0; c < 4; ++c) {
+                Real* flux = &kept.values[c][i - r.i0];
+                if (complete) {
+                    const Pack rate = exchange::load<Pack>(balance.out.r[c] + at) +
+                                      (exchange::load<Pack>(flux) - q.c[c]) * inverse;
+                    exchange::store_first(balance.out.r[c] + at, rate, r.i1 - i);
+                }
+                exchange::store(flux, q.c[c]);
+            }
         }
-        for (; i < i1; i += w) {
-            const Quad<Pack> q = balance.template flux<Pack, 0>(i, j, k);
-            for (int c = 0; c < 4; ++c) exchange::store(&row[c][i - i0 + 1], q.c[c]);
-        }
-        Quad<double> mass{{row[0][0], 0, 0, 0}};
-        balance.template prescribe_mass<double, 0>(mass, i0 - 1, j, k);
-        row[0][0] = mass.c[0];
-        mass.c[0] = row[0][i1 - i0];
-        balance.template prescribe_mass<double, 0>(mass, i1 - 1, j, k);
-        row[0][i1 - i0] = mass.c[0];
     }
 
     HEMOFLUX_FN void operator()(std::size_t tile) const {
         const std::size_t tx = tile % sx.pieces, ty = tile / sx.pieces % sy.pieces,
                           tz = tile / (sx.pieces * sy.pieces);
-        const std::ptrdiff_t i0 = sx.first(tx), i1 = sx.last(tx), j0 = sy.first(ty), j1 = sy.last(ty),
-                             k0 = sz.first(tz), k1 = sz.last(tz);
-        Row x, y, z[max_rows];
-        for (std::ptrdiff_t j = j0; j < j1; ++j) fill<2>(z[j - j0], i0, i1, j, k0 - 1);
+        const Range r{sx.first(tx), sx.last(tx)};
+        const std::ptrdiff_t j0 = sy.first(ty), j1 = sy.last(ty), k0 = sz.first(tz), k1 = sz.last(tz);
+        Cells rows[max_rows + 2], *fresh = &rows[max_rows + 1], *plane[max_rows + 1];
+        Fluxes y, z[max_rows];
+        for (std::size_t row = 0; row <= max_rows; ++row) plane[row] = &rows[row];
+        // plane[0] is row j0 - 1 (later also row j1), plane[j - j0 + 1] row j
+        for (std::ptrdiff_t j = j0; j < j1; ++j) cells(*plane[j - j0 + 1], r, j, k0 - 1);
         for (std::ptrdiff_t k = k0; k < k1; ++k) {
-            fill<1>(y, i0, i1, j0 - 1, k);
+            cells(*plane[0], r, j0 - 1, k);
             for (std::ptrdiff_t j = j0; j < j1; ++j) {
-                fill_x(x, i0, i1, j, k);
-                Row& zj = z[j - j0];
-                for (std::ptrdiff_t i = i0; i < i1; i += w) {
-                    Quad<Pack> yr = balance.template flux<Pack, 1>(i, j, k);
-                    balance.template prescribe_mass<Pack, 1>(yr, j, i, k);
-                    Quad<Pack> yl, xl, xr;
-                    for (int c = 0; c < 4; ++c) {
-                        yl.c[c] = exchange::load<Pack>(&y[c][i - i0]);
-                        exchange::store(&y[c][i - i0], yr.c[c]);
-                    }
-                    Quad<Pack> zr = balance.template flux<Pack, 2>(i, j, k);
-                    balance.template prescribe_mass<Pack, 2>(zr, k, i, j);
-                    Quad<Pack> zl;
-                    for (int c = 0; c < 4; ++c) {
-                        zl.c[c] = exchange::load<Pack>(&zj[c][i - i0]);
-                        exchange::store(&zj[c][i - i0], zr.c[c]);
-                        xl.c[c] = exchange::load<Pack>(&x[c][i - i0]);
-                        xr.c[c] = exchange::load<Pack>(&x[c][i - i0 + 1]);
-                    }
-                    balance.write(i, j, k, i1 - i, xl, xr, yl, yr, zl, zr);
-                }
+                Cells*& last = plane[j - j0 + 1];
+                cells(*fresh, r, j, k);
+                end_cells(*fresh, r, j, k);
+                x_faces(*fresh, r, j, k);
+                faces<1>(y, *plane[j - j0], *fresh, r, j, k, j > j0);
+                faces<2>(z[j - j0], *last, *fresh, r, j, k, k > k0);
+                std::swap(last, fresh);
             }
+            cells(*fresh, r, j1, k);
+            faces<1>(y, *plane[j1 - j0], *fresh, r, j1, k, true);
+        }
+        for (std::ptrdiff_t j = j0; j < j1; ++j) {
+            cells(*fresh, r, j, k1);
+            faces<2>(z[j - j0], *plane[j - j0 + 1], *fresh, r, j, k1, true);
         }
     }
 };

@@ -69,12 +69,11 @@ fluid::ResidualView FluidProblem::out() const {
 }
 
 void FluidProblem::evaluate() const {
-    fluid::evaluate_residual(grid.view(), grid.uniform(), state.view(), boundary.view(), parameters, out());
+    fluid::evaluate_residual(grid.view(), state.view(), boundary.view(), parameters, out());
 }
 
 void FluidProblem::evaluate_by_cell() const {
-    fluid::evaluate_residual_by_cell(grid.view(), grid.uniform(), state.view(), boundary.view(), parameters,
-                                     out());
+    fluid::evaluate_residual_by_cell(grid.view(), state.view(), boundary.view(), parameters, out());
 }
 
 double scalar_kernel_error() {
