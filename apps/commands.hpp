@@ -14,6 +14,8 @@ void add_mesh_command(CLI::App& program);
 void add_mesh_hex_command(CLI::App& mesh);
 /// `hemoflux membrane relax|stretch`.
 void add_membrane_command(CLI::App& program, int& code);
+/// `hemoflux bench` and `hemoflux bench thesis`.
+void add_bench_command(CLI::App& program);
 /// `hemoflux schema`.
 void add_schema_command(CLI::App& program);
 

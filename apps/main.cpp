@@ -63,6 +63,7 @@ int run_program(int argc, char** argv) {
     hemoflux::apps::add_run_command(program, code);
     hemoflux::apps::add_mesh_command(program);
     hemoflux::apps::add_membrane_command(program, code);
+    hemoflux::apps::add_bench_command(program);
     hemoflux::apps::add_schema_command(program);
     try {
         program.parse(argc, argv);

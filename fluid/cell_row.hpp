@@ -60,7 +60,7 @@ struct CellRow {
             low.template load_nodes<Value, Axis>(loader.state, offset, left, l);
             high.template load_nodes<Value, Axis>(loader.state, next, right, r);
             for (int c = 0; c < 4; ++c) {
-                const auto normal = static_cast<std::size_t>(4 * Axis + loader.field[c]);
+                const auto normal = static_cast<std::size_t>(4 * Axis + loader.field(c));
                 plane.c[c] = (l.a[c] + r.a[c]) + (low.template get<Value>(normal, offset) -
                                                   high.template get<Value>(normal, next));
                 plane.m1[c] = l.d1[c] + r.d1[c];
@@ -144,7 +144,7 @@ struct CellRow {
                                     SideNodes<Value>& s) const {
         using Face = FaceLoader<F, Value, Axis>;
         for (int c = 0; c < 4; ++c) {
-            const int f = Face::field[c];
+            const int f = Face::field(c);
             s.a[c] = exchange::load<Value>(state.q[f] + at);
             s.d1[c] = get<Value>(static_cast<std::size_t>(4 * Face::t1 + f), offset);
             s.d2[c] = get<Value>(static_cast<std::size_t>(4 * Face::t2 + f), offset);
@@ -165,7 +165,7 @@ struct CellRow {
         using Face = FaceLoader<F, Value, Axis>;
         FaceSide<Value> s;
         for (int c = 0; c < 4; ++c) {
-            const int f = Face::field[c];
+            const int f = Face::field(c);
             s.phi[c] = exchange::load<Value>(state.q[f] + at);
             s.n[c] = get<Value>(static_cast<std::size_t>(4 * Face::n + f), offset);
             s.t1[c] = get<Value>(static_cast<std::size_t>(4 * Face::t1 + f), offset);

@@ -22,7 +22,7 @@ template <class F, class Value, int Axis>
 struct FaceLoader {
     static constexpr int n = Axis, t1 = (Axis + 1) % 3, t2 = (Axis + 2) % 3;
     /// Components of the state, of which the vector's run n, t1, t2.
-    static constexpr int field[4] = {0, 1 + n, 1 + t1, 1 + t2};
+    HEMOFLUX_INLINE static constexpr int field(int c) { return c == 0 ? 0 : 1 + (c - 1 + Axis) % 3; }
 
     const GridView& grid;
     const StateView& state;
@@ -65,7 +65,7 @@ struct FaceLoader {
                                     const Value& scale, Value (&force)[3]) const {
         if constexpr (F::force) {
             for (int c = 0; c < 3; ++c) {
-                const int component = field[c + 1] - 1;
+                const int component = field(c + 1) - 1;
                 const double* f = state.force[component];
                 force[c] = weight_left * exchange::load<Value>(f + left) +
                            (1.0 - weight_left) * exchange::load<Value>(f + right) +
@@ -87,7 +87,7 @@ struct FaceLoader {
     HEMOFLUX_INLINE FaceSide<Value> side(std::size_t at, const std::ptrdiff_t (&ijk)[3]) const {
         FaceSide<Value> s;
         for (int c = 0; c < 4; ++c) {
-            const double* p = state.q[field[c]] + at;
+            const double* p = state.q[field(c)] + at;
             s.phi[c] = exchange::load<Value>(p);
             s.n[c] = gradient(p, n, ijk[n]);
             s.t1[c] = gradient(p, t1, ijk[t1]);
@@ -99,7 +99,7 @@ struct FaceLoader {
     /// From components along n, t1, t2 back to x, y, z.
     HEMOFLUX_INLINE static Quad<Value> back(const Quad<Value>& q) {
         Quad<Value> xyz;
-        for (int c = 0; c < 4; ++c) xyz.c[field[c]] = q.c[c];
+        for (int c = 0; c < 4; ++c) xyz.c[field(c)] = q.c[c];
         return xyz;
     }
 

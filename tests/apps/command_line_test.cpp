@@ -26,7 +26,7 @@ class CommandLine : public Program {
 TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
     for (const char* level : {"", "run", "mesh", "mesh grid", "mesh rbc", "mesh hex", "mesh hex cube",
                               "mesh hex cylinder", "mesh hex pipe", "mesh hex constriction", "mesh hex box",
-                              "mesh hex check", "membrane", "membrane relax", "membrane stretch", "schema"}) {
+                              "mesh hex check", "membrane", "membrane relax", "membrane stretch", "bench", "bench thesis", "schema"}) {
         const Outcome outcome = run(std::string(level) + " --help");
         EXPECT_EQ(outcome.code, 0) << level;
         EXPECT_NE(outcome.text.find("Example"), std::string::npos) << level << "\n" << outcome.text;
@@ -36,13 +36,24 @@ TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
 }
 
 TEST_F(CommandLine, WrongCommandsAreBadInput) {
-    expect_error("", 2, "hemoflux needs one of run, mesh, membrane, schema");
+    expect_error("", 2, "hemoflux needs one of run, mesh, membrane, bench, schema");
     expect_error("rnu case.toml", 2, "\"rnu\" is not a command");
     expect_error("mesh rcb", 2, "hemoflux mesh has grid, rbc, hex");
     expect_error("membrane", 2, "hemoflux membrane needs one of relax, stretch");
     expect_error("run --no-such-option", 2, "See hemoflux run --help");
     expect_error("run case.toml --threads -1", 2, "--threads");
     expect_error("run", 2, "No case is given");
+}
+
+TEST_F(CommandLine, Benchmarks) {
+    const Outcome outcome = run("bench --quick --json speed.json");
+    EXPECT_EQ(outcome.code, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("residual, cubic cells"), std::string::npos) << outcome.text;
+    EXPECT_NE(content("speed.json").find("\"cells_per_s_per_core\""), std::string::npos);
+    const Outcome thesis = run("bench thesis --quick");
+    EXPECT_EQ(thesis.code, 0) << thesis.text;
+    EXPECT_NE(thesis.text.find("15550"), std::string::npos) << thesis.text;
+    expect_error("bench --cells 4", 2, "--cells");
 }
 
 TEST_F(CommandLine, BadCases) {
