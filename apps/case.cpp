@@ -112,8 +112,9 @@ TimeInput read_time(const Section& in) {
 }
 
 NumericsInput read_numerics(const Section& in) {
-    return {in.number("lattice_viscosity"), in.number("reynolds"), in.maybe("mach"),
-            in.maybe("step_strain"),        in.number("gamma"),    in.number("tau_floor")};
+    return {in.number("lattice_viscosity"),  in.number("reynolds"), in.maybe("mach"),
+            in.maybe("step_strain"),         in.number("gamma"),    in.number("tau_floor"),
+            in.text("precision") == "single"};
 }
 
 OutputInput read_output(const Section& in) {

@@ -110,6 +110,7 @@ struct NumericsInput {
     std::optional<double> step_strain;
     double gamma = 1;
     double tau_floor = 0.05;
+    bool single_precision = false;  ///< of the residual
     bool operator==(const NumericsInput&) const = default;
 };
 

@@ -121,7 +121,11 @@ Table numerics_table() {
              {"tau_floor",
               {number().within(0, 10, "tau - 1/2 is not negative")},
               "0.05",
-              "lower bound of tau - 1/2"}}};
+              "lower bound of tau - 1/2"},
+             {"precision",
+              {choice({"double", "single"})},
+              "\"double\"",
+              "of the residual; single is faster and for fluid runs on cubic cells, error about 1e-5 of it"}}};
 }
 
 Table output_table() {

@@ -46,6 +46,9 @@ void check_supported(const Case& c) {
         throw InputError("[shear] rate",
                          "a coupled run takes its clock, the strain, from the shear rate and none is given",
                          "Give a rate");
+    if (c.numerics.single_precision)
+        throw InputError("numerics.precision \"single\"", "cells exert a body force, which needs double",
+                         "Leave numerics.precision out");
     if (c.numerics.gamma != 1)
         throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma),
                          "preconditioning changes the path in time, and a coupled run is unsteady",

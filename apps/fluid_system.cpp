@@ -56,6 +56,7 @@ fluid::Solver make_solver(const Case& c, const meshing::RectilinearGrid& grid, c
     set_acceleration(c, scales, o);
     o.gamma = c.numerics.gamma;
     o.tau_floor = c.numerics.tau_floor;
+    o.single_precision = c.numerics.single_precision;
     o.scheme = scheme_of(c.time.scheme);
     fluid::Solver solver(grid, make_patches(c, scales, rate), o);
     solver.initialise(initial_flow(c, rate));

@@ -7,13 +7,13 @@
 namespace hemoflux::fluid {
 
 /// Geometry, state and where R goes; the body force in the balance of a cell and prescribed mass fluxes.
-template <class F>
+template <class F, class Real = double>
 struct Balance {
     GridView grid;
-    StateView state;
+    BasicStateView<Real> state;
     BoundaryView boundary;
     FlowParameters parameters;
-    ResidualView out;
+    BasicResidualView<Real> out;
     double inv_gamma;
 
     template <class Value, int Axis>
@@ -29,7 +29,20 @@ struct Balance {
         const auto n = static_cast<std::ptrdiff_t>(grid.layout.n[Axis]);
         if (face != -1 && face != n - 1) return;
         const MassFluxView& m = boundary.mass_flux[2 * Axis + (face == -1 ? 0 : 1)];
-        if (m.value) q.c[0] = exchange::load<Value>(m.value + static_cast<std::ptrdiff_t>(m.pitch) * b + a);
+        if (!m.value) return;
+        const double* value = m.value + static_cast<std::ptrdiff_t>(m.pitch) * b + a;
+        if constexpr (!exchange::is_single<Value>)
+            q.c[0] = exchange::load<Value>(value);
+        else
+            q.c[0] = narrow<Value>(value);
+    }
+
+    /// Doubles from p on, rounded to single precision.
+    template <class Value>
+    HEMOFLUX_INLINE static Value narrow(const double* p) {
+        float rounded[exchange::lanes<Value>];
+        for (std::size_t l = 0; l < exchange::lanes<Value>; ++l) rounded[l] = static_cast<float>(p[l]);
+        return exchange::load<Value>(rounded);
     }
 
     /// Body force per volume (component c - 1) in the cells at `at`, as it enters R.

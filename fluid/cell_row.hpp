@@ -37,7 +37,7 @@ struct CellRow {
 
     /// Computes the cells from i on (i - i0 = offset), which lie at `at`.
     template <class Value>
-    HEMOFLUX_INLINE void compute(const GridView& grid, const StateView& state, double inv_gamma,
+    HEMOFLUX_INLINE void compute(const GridView& grid, const BasicStateView<Real>& state, double inv_gamma,
                                  std::ptrdiff_t offset, std::size_t at, const std::ptrdiff_t (&ijk)[3]) {
         if constexpr (F::cubic)
             compute_cubic<Value>(grid, state, inv_gamma, offset, at);
@@ -94,8 +94,8 @@ struct CellRow {
     }
 
     template <class Value>
-    HEMOFLUX_INLINE void compute_cubic(const GridView& grid, const StateView& state, double inv_gamma,
-                                       std::ptrdiff_t offset, std::size_t at) {
+    HEMOFLUX_INLINE void compute_cubic(const GridView& grid, const BasicStateView<Real>& state,
+                                       double inv_gamma, std::ptrdiff_t offset, std::size_t at) {
         using R = exchange::Scalar<Value>;
         const std::ptrdiff_t stride[3] = {1, static_cast<std::ptrdiff_t>(grid.layout.row),
                                           static_cast<std::ptrdiff_t>(grid.layout.plane)};
@@ -127,7 +127,7 @@ struct CellRow {
     }
 
     template <class Value>
-    HEMOFLUX_INLINE void compute_gradients(const GridView& grid, const StateView& state,
+    HEMOFLUX_INLINE void compute_gradients(const GridView& grid, const BasicStateView<Real>& state,
                                            std::ptrdiff_t offset, std::size_t at,
                                            const std::ptrdiff_t (&ijk)[3]) {
         const FaceLoader<F, Value, 0> loader{grid, state, FlowParameters{}, 1};
@@ -140,7 +140,7 @@ struct CellRow {
     }
 
     template <class Value, int Axis>
-    HEMOFLUX_INLINE void load_nodes(const StateView& state, std::ptrdiff_t offset, std::size_t at,
+    HEMOFLUX_INLINE void load_nodes(const BasicStateView<Real>& state, std::ptrdiff_t offset, std::size_t at,
                                     SideNodes<Value>& s) const {
         using Face = FaceLoader<F, Value, Axis>;
         for (int c = 0; c < 4; ++c) {
@@ -160,7 +160,7 @@ struct CellRow {
     }
 
     template <class Value, int Axis>
-    HEMOFLUX_INLINE FaceSide<Value> load_side(const StateView& state, std::ptrdiff_t offset,
+    HEMOFLUX_INLINE FaceSide<Value> load_side(const BasicStateView<Real>& state, std::ptrdiff_t offset,
                                               std::size_t at) const {
         using Face = FaceLoader<F, Value, Axis>;
         FaceSide<Value> s;

@@ -25,7 +25,7 @@ struct FaceLoader {
     HEMOFLUX_INLINE static constexpr int field(int c) { return c == 0 ? 0 : 1 + (c - 1 + Axis) % 3; }
 
     const GridView& grid;
-    const StateView& state;
+    const BasicStateView<exchange::Scalar<Value>>& state;
     const FlowParameters& parameters;
     double inv_gamma;
 
@@ -57,7 +57,7 @@ struct FaceLoader {
         if constexpr (F::viscosity)
             return 0.5 * (exchange::load<Value>(state.nu + left) + exchange::load<Value>(state.nu + right));
         else
-            return Value(parameters.nu);
+            return Value(exchange::Scalar<Value>(parameters.nu));
     }
 
     /// Body force per volume on the face (n, t1, t2), divided by gamma, times `scale`.

@@ -22,14 +22,22 @@ struct FlowParameters {
 };
 
 /// Where R is written, in the state's layout; interior cells only.
-struct ResidualView {
-    double* r[4] = {nullptr, nullptr, nullptr, nullptr};
+template <class Real>
+struct BasicResidualView {
+    Real* r[4] = {nullptr, nullptr, nullptr, nullptr};
 };
+using ResidualView = BasicResidualView<double>;
+using SingleResidualView = BasicResidualView<float>;
 
 /// Evaluates R for all interior cells. Ghost cells of the state (and of force and viscosity, if used) must be
 /// filled.
 void evaluate_residual(const GridView& grid, const StateView& state, const BoundaryView& boundary,
                        const FlowParameters& parameters, const ResidualView& out);
+
+/// The same in single precision, on the CPU, for cubic cells (GridView::delta is set), constant viscosity and
+/// no body force: std::invalid_argument otherwise. grid.layout is that of the state.
+void evaluate_residual(const GridView& grid, const SingleStateView& state, const BoundaryView& boundary,
+                       const FlowParameters& parameters, const SingleResidualView& out);
 
 /// The same cell by cell, each face computed twice, in plain doubles: how a CUDA thread does it, and the
 /// reference that tests and benchmarks compare with.

@@ -38,6 +38,14 @@ Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, con
       residual_(grid_.view().layout, false, false, 0) {
     if (options_.largest_nu < options_.nu) options_.largest_nu = options_.nu;
     boundary_.check_mass_balance();
+    if (options_.single_precision) {
+        if (exchange::on_gpu || grid_.view().delta == 0 || options_.with_force || options_.with_viscosity)
+            throw InputError("single precision",
+                             "it is for cubic cells whose streaming distance is half their width, without a "
+                             "body force or a varying viscosity, on a processor",
+                             "use double precision, or a uniform grid of cubes and a smaller tau_floor");
+        single_ = std::make_unique<SingleResidual>(grid_.view());
+    }
 }
 
 namespace {
@@ -96,8 +104,11 @@ ResidualView Solver::residual_view(const State& fields) const {
 
 void Solver::evaluate() {
     boundary_.fill(grid_.view(), state_.view());
-    evaluate_residual(grid_.view(), state_.view(), boundary_.view(), flow_parameters(),
-                      residual_view(residual_));
+    if (single_)
+        single_->evaluate(state_.view(), boundary_.view(), flow_parameters(), residual_view(residual_));
+    else
+        evaluate_residual(grid_.view(), state_.view(), boundary_.view(), flow_parameters(),
+                          residual_view(residual_));
     ++evaluations_;
 }
 

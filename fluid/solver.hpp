@@ -12,6 +12,7 @@
 #include "fluid/grid.hpp"
 #include "fluid/oscillating_force.hpp"
 #include "fluid/residual.hpp"
+#include "fluid/single_residual.hpp"
 #include "fluid/state.hpp"
 #include "fluid/time_step.hpp"
 
@@ -26,8 +27,9 @@ struct SolverOptions {
     bool with_force = false;              ///< a body force acts
     double uniform_force[3] = {0, 0, 0};  ///< body force per volume everywhere, added to the field
     OscillatingForce oscillating_force;   ///< added as well, acts with with_force
-    double gamma = 1;      ///< preconditioning parameter (4.2); other than 1 only for steady flow
-    double tau_floor = 0;  ///< smallest tau - 1/2 on any face; 0: no floor
+    double gamma = 1;               ///< preconditioning parameter (4.2); other than 1 only for steady flow
+    double tau_floor = 0;           ///< smallest tau - 1/2 on any face; 0: no floor
+    bool single_precision = false;  ///< residuals in single precision, the state stays in double; see Solver
     Scheme scheme = Scheme::rk4;
     GradientMethod gradient = GradientMethod::least_squares;
 };
@@ -38,7 +40,8 @@ double largest_delta(const SolverOptions& options);
 /// The flow solver on a rectilinear grid; cells are numbered x fastest.
 class Solver final : public Flow {
   public:
-    /// Throws InputError when options or patches are impossible.
+    /// Throws InputError when options or patches are impossible. single_precision needs cubic cells, a constant
+    /// viscosity, no body force and a processor (see fluid/single_residual.hpp).
     Solver(const meshing::RectilinearGrid& grid, const Patches& patches, const SolverOptions& options);
 
     [[nodiscard]] std::size_t cells() const override { return grid_.view().layout.cells(); }
@@ -100,6 +103,7 @@ class Solver final : public Flow {
     Boundary boundary_;
     State state_, residual_;
     std::unique_ptr<State> base_, sum_;
+    std::unique_ptr<SingleResidual> single_;
     std::unique_ptr<Factored> factored_;
     exchange::Buffer<double> local_dt_;
     std::size_t evaluations_ = 0;

@@ -12,11 +12,15 @@ namespace hemoflux::fluid {
 
 /// Pointers a kernel needs; trivially copyable. q: density, then velocity x, y, z (c = 1). force: per volume.
 /// nu: kinematic viscosity. force and nu are null where the solver was not asked for them.
-struct StateView {
-    double* q[4] = {nullptr, nullptr, nullptr, nullptr};
-    double* force[3] = {nullptr, nullptr, nullptr};
-    double* nu = nullptr;
+template <class Real>
+struct BasicStateView {
+    Real* q[4] = {nullptr, nullptr, nullptr, nullptr};
+    Real* force[3] = {nullptr, nullptr, nullptr};
+    Real* nu = nullptr;
 };
+using StateView = BasicStateView<double>;
+/// In single precision the density is stored as rho - 1.
+using SingleStateView = BasicStateView<float>;
 
 /// Owns the fields. All fields start as: density 1, velocity 0, force 0, viscosity `nu`; padding values too,
 /// so that unused SIMD lanes stay finite.

@@ -5,6 +5,7 @@
 /// of the row below. Of the rows before, only the last of this plane's fluxes and the last plane is kept.
 #pragma once
 
+#include <type_traits>
 #include <utility>
 
 #include "exchange/pack.hpp"
@@ -35,13 +36,12 @@ struct Split {
 /// One tile of rows: cells i0 .. i1 - 1 of the rows j0 .. j1 - 1 in the planes k0 .. k1 - 1. Functions of one
 /// row are compiled once and on their own, so that a flux is the same to the last bit in whatever tile it is
 /// computed.
-template <class F>
+template <class F, class Real = double>
 struct TileResidual {
-    Balance<F> balance;
+    Balance<F, Real> balance;
     Split sx, sy, sz;
 
-    using Pack = exchange::Pack;
-    using Real = exchange::Scalar<Pack>;
+    using Pack = std::conditional_t<std::is_same_v<Real, float>, exchange::SinglePack, exchange::Pack>;
     using Cells = CellRow<F, Real>;
     static constexpr auto w = static_cast<std::ptrdiff_t>(exchange::lanes<Pack>);
 
@@ -82,6 +82,14 @@ struct TileResidual {
         for (int c = 0; c < 4; ++c) exchange::store(&x.values[c][i - r.i0], q.c[c]);
     }
 
+    HEMOFLUX_INLINE Pack inverse_width(std::ptrdiff_t i) const {
+        const double* inverse = balance.grid.axis[0].inverse;
+        if constexpr (F::cubic)
+            return Pack(Real(inverse[0]));
+        else
+            return exchange::load<Pack>(inverse + i);
+    }
+
     /// Fluxes through all x faces of one row, and what they and the body force give to R.
     HEMOFLUX_NOINLINE void x_faces(const Cells& row, Range r, std::ptrdiff_t j, std::ptrdiff_t k) const {
         Fluxes x;
@@ -94,7 +102,7 @@ struct TileResidual {
         }
         for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) {
             const std::size_t at = balance.grid.layout.at(i, j, k);
-            const Pack inv_dx = exchange::load<Pack>(balance.grid.axis[0].inverse + i);
+            const Pack inv_dx = inverse_width(i);
             for (int c = 0; c < 4; ++c) {
                 const Real* face = &x.values[c][i - r.i0];
                 Pack rate = (exchange::load<Pack>(face) - exchange::load<Pack>(face + 1)) * inv_dx;
@@ -112,7 +120,7 @@ struct TileResidual {
     HEMOFLUX_NOINLINE void faces(Fluxes& kept, const Cells& low, const Cells& high, Range r, std::ptrdiff_t j,
                                  std::ptrdiff_t k, bool complete) const {
         const std::ptrdiff_t lj = Axis == 1 ? j - 1 : j, lk = Axis == 2 ? k - 1 : k;
-        const Pack inverse(balance.grid.axis[Axis].inverse[Axis == 1 ? lj : lk]);
+        const Pack inverse(Real(balance.grid.axis[Axis].inverse[Axis == 1 ? lj : lk]));
         for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) {
             const std::ptrdiff_t left[3] = {i, lj, lk};
             const std::size_t at = balance.grid.layout.at(i, lj, lk);
