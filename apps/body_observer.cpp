@@ -51,10 +51,14 @@ void check_body(const BodyInput& body, const fluid::Flow& flow) {
                          "Give two directions at a right angle");
 }
 
+Vec3d centre_of(const BodyInput& body, const std::vector<fluid::WallFace>& faces) {
+    return body.centre ? vector(*body.centre) : middle_of(faces);
+}
+
 void observe_body_flow(const BodyCase& body, const fluid::Flow& flow, const fluid::Probe& probe,
                        output::Summary& summary, const output::OutputFolder& folder) {
     const auto faces = flow.wall_faces(body.input.patch);
-    const Vec3d centre = body.input.centre ? vector(*body.input.centre) : middle_of(faces);
+    const Vec3d centre = centre_of(body.input, faces);
     const fluid::BodyFrame frame{centre, unit(body.input.direction), unit(body.input.lift)};
     const double area = body.input.area.value_or(frontal_area(faces, frame.stream));
     auto& o = summary.observables;

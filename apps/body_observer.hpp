@@ -1,16 +1,22 @@
 /// Forces on a body, its wall shear stress, separation and wake.
 #pragma once
 
+#include <vector>
+
 #include "apps/case.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/output/folder.hpp"
 #include "apps/output/summary.hpp"
+#include "fluid/flow.hpp"
 #include "fluid/probe.hpp"
 
 namespace hemoflux::apps {
 
 /// InputError when the patch is not there or the directions are no frame.
 void check_body(const BodyInput& body, const fluid::Flow& flow);
+
+/// The point that the body's angles are counted around, um.
+Vec3d centre_of(const BodyInput& body, const std::vector<fluid::WallFace>& faces);
 
 /// A body and the units it is measured in.
 struct BodyCase {

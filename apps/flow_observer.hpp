@@ -32,6 +32,12 @@ class FlowObserver {
     /// the case wants pictures. Returns a line to print when a plot failed.
     std::string observe(output::Summary& summary, const output::OutputFolder& folder) const;
 
+    /// Draws the flow in units of speed and length: picture_velocity.png with streamlines, picture_vorticity.png at the
+    /// levels of Table 3.7 and picture_streamfunction.png for plane flows (near a body where there is one),
+    /// picture_streamlines_{x,y,z}.png in the middle planes of the box for others. Returns a line to print when a
+    /// picture failed.
+    [[nodiscard]] std::string draw(const output::OutputFolder& folder) const;
+
     /// Reference speed (um/s) and length (um).
     [[nodiscard]] double speed() const { return speed_; }
     [[nodiscard]] double length() const { return length_; }

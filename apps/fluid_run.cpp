@@ -9,6 +9,7 @@
 #include "apps/flow_observer.hpp"
 #include "apps/fluid_system.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/output/convergence_plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/run_files.hpp"
 #include "exchange/backend.hpp"
@@ -175,8 +176,20 @@ class FluidRun {
         s.errors_estimated["compressibility"] = system_.mach * system_.mach;
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
-        draw_pictures(case_, files_, "time in s");
+        draw();
         files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+    }
+
+    void draw() {
+        if (!observer_ || !case_.output.pictures) {
+            draw_pictures(case_, files_, "time in s");
+            return;
+        }
+        const auto stem = files_.folder().path() / "plot_convergence";
+        for (const auto& failed :
+             {observer_->draw(files_.folder()),
+              output::plot_convergence(files_.folder().history(), stem, case_.title).value_or("")})
+            if (!failed.empty()) files_.log().warn(failed);
     }
 
     static constexpr const char* names[4] = {"fluid.density", "fluid.u", "fluid.v", "fluid.w"};

@@ -8,13 +8,18 @@
 namespace hemoflux::fluid {
 namespace {
 
-/// Velocity component `field` on the face between the cells i and i + 1 of an axis: linear between the centres, the
-/// mean of border and ghost cell on the sides.
+/// Value on a side of the box: between border and ghost cell, of equal width.
 template <class Cell>
-double face_value(const std::vector<double>& widths, std::ptrdiff_t i, const Cell& cell) {
-    const auto w = [&](std::ptrdiff_t c) { return widths[static_cast<std::size_t>(c) + exchange::ghosts]; };
-    const double left = w(i + 1) / (w(i) + w(i + 1));
-    return left * cell(i) + (1 - left) * cell(i + 1);
+double on_side(std::ptrdiff_t i, const Cell& cell) {
+    return (cell(i) + cell(i + 1)) / 2;
+}
+
+/// Mean value between the centres of the cells i and i + 1 of n, or between a side and the centre beside it.
+template <class Cell>
+double between(std::ptrdiff_t i, std::ptrdiff_t n, const Cell& cell) {
+    if (i == -1) return (on_side(i, cell) + cell(0)) / 2;
+    if (i == n - 1) return (cell(i) + on_side(i, cell)) / 2;
+    return (cell(i) + cell(i + 1)) / 2;
 }
 
 }  // namespace
@@ -64,19 +69,22 @@ PlaneField streamfunction(const Solver& solver) {
     const HostFields fields = host_fields(solver);
     const auto nx = static_cast<std::ptrdiff_t>(axes[0].cells()),
                ny = static_cast<std::ptrdiff_t>(axes[1].cells());
-    const auto &wx = grid.ghosted_widths(0), &wy = grid.ghosted_widths(1);
-    const auto on_x = [&](std::size_t c, std::ptrdiff_t i, std::ptrdiff_t j) {
-        return face_value(wx, i, [&](std::ptrdiff_t m) { return fields.at(c, m, j, 0); });
+    const auto in_row = [&](std::size_t c, std::ptrdiff_t j) {
+        return [&fields, c, j](std::ptrdiff_t i) { return fields.at(c, i, j, 0); };
     };
-    const auto on_y = [&](std::size_t c, std::ptrdiff_t i, std::ptrdiff_t j) {
-        return face_value(wy, j, [&](std::ptrdiff_t m) { return fields.at(c, i, m, 0); });
+    const auto in_column = [&](std::size_t c, std::ptrdiff_t i) {
+        return [&fields, c, i](std::ptrdiff_t j) { return fields.at(c, i, j, 0); };
     };
     PlaneField field{axes[0], axes[1], {}};
     const std::vector<double> dx = axes[0].widths(), dy = axes[1].widths();
     for (std::ptrdiff_t j = 0; j < ny; ++j)
-        for (std::ptrdiff_t i = 0; i < nx; ++i)
-            field.values.push_back((on_x(2, i, j) - on_x(2, i - 1, j)) / dx[static_cast<std::size_t>(i)] -
-                                   (on_y(1, i, j) - on_y(1, i, j - 1)) / dy[static_cast<std::size_t>(j)]);
+        for (std::ptrdiff_t i = 0; i < nx; ++i) {
+            const auto v = in_row(2, j);
+            const auto u = in_column(1, i);
+            field.values.push_back(
+                (between(i, nx, v) - between(i - 1, nx, v)) / dx[static_cast<std::size_t>(i)] -
+                (between(j, ny, u) - between(j - 1, ny, u)) / dy[static_cast<std::size_t>(j)]);
+        }
     // dpsi = u dy - v dx along the sides
     PlaneBorder psi;
     const auto along = [](std::vector<double>& values, double start, double slope, double width) {
@@ -85,14 +93,14 @@ PlaneField streamfunction(const Solver& solver) {
     };
     double lower = 0;
     for (std::ptrdiff_t i = 0; i < nx; ++i)
-        lower = along(psi.y_lower, lower, -on_y(2, i, -1), dx[static_cast<std::size_t>(i)]);
+        lower = along(psi.y_lower, lower, -on_side(-1, in_column(2, i)), dx[static_cast<std::size_t>(i)]);
     double upper = 0;
     for (std::ptrdiff_t j = 0; j < ny; ++j)
-        upper = along(psi.x_lower, upper, on_x(1, -1, j), dy[static_cast<std::size_t>(j)]);
+        upper = along(psi.x_lower, upper, on_side(-1, in_row(1, j)), dy[static_cast<std::size_t>(j)]);
     for (std::ptrdiff_t i = 0; i < nx; ++i)
-        upper = along(psi.y_upper, upper, -on_y(2, i, ny - 1), dx[static_cast<std::size_t>(i)]);
+        upper = along(psi.y_upper, upper, -on_side(ny - 1, in_column(2, i)), dx[static_cast<std::size_t>(i)]);
     for (std::ptrdiff_t j = 0; j < ny; ++j)
-        lower = along(psi.x_upper, lower, on_x(1, nx - 1, j), dy[static_cast<std::size_t>(j)]);
+        lower = along(psi.x_upper, lower, on_side(nx - 1, in_row(1, j)), dy[static_cast<std::size_t>(j)]);
     field.values = solve_poisson(field, psi);
     return field;
 }

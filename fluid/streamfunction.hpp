@@ -1,7 +1,9 @@
 /// Streamfunction of a plane flow, (3.14):
 ///   laplace psi = -zeta,   zeta = dv/dx - du/dy (3.13),   u = dpsi/dy,   v = -dpsi/dx.
-/// Finite volumes: the vorticity of a cell is the circulation around it, psi on the sides is the volume flux through
-/// them, counted from the lower left corner (0 on walls). Second order.
+/// Finite volumes: psi fits, by least squares weighted with face length over distance, its steps between neighbouring
+/// centres to the velocity between them (trapezoidal rule; to a side: between the centre and the side). The normal
+/// equations are (3.14) with the circulation of these velocities around each cell. psi on the sides is the volume flux
+/// through them, counted from the lower left corner (0 on walls). Second order, and of the right sign beside walls.
 #pragma once
 
 #include <vector>
