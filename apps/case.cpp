@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/case_membrane.hpp"
 #include "apps/case_rules.hpp"
+#include "apps/choice.hpp"
 #include "apps/toml_input.hpp"
 #include "apps/units.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
 namespace {
-
-/// The enumerator of a word; words stand in the order of the enumerators and are known to the schema.
-template <class Enum>
-Enum chosen(const std::string& word, std::initializer_list<const char*> words) {
-    const auto found = std::find(words.begin(), words.end(), word);
-    return static_cast<Enum>(found - words.begin());
-}
 
 FluidInput read_fluid(const Section& in, bool sheared) {
     const std::string initial = in.text("initial");
@@ -70,40 +65,6 @@ PatchInput read_patch(const Section& in) {
         patch.value = *value;
     }
     return patch;
-}
-
-CellInput read_cell(const Section& in) {
-    CellInput cell;
-    cell.mesh = in.text("mesh");
-    cell.nodes = in.integer("nodes");
-    cell.file = in.text("file");
-    cell.shape = in.has("file")
-                     ? CellShape::file
-                     : chosen<CellShape>(in.text("shape"), {"discocyte", "sphere", "spheroid", "evans-fung"});
-    cell.reduced_volume = in.number("reduced_volume");
-    cell.route = chosen<membrane::Route>(in.text("route"), {"evans-fung", "deflation"});
-    cell.reference = chosen<MembraneReference>(
-        in.text("reference"),
-        {"stress-free", "uniform", "coarse-grained", "spheroid", "file", "stored", "auto"});
-    cell.reference_file = in.text("reference_file");
-    cell.reference_reduced_volume = in.number("reference_reduced_volume");
-    cell.shear_modulus = in.number("shear_modulus");
-    cell.spring_length = in.maybe("spring_length");
-    cell.spring_ratio = in.maybe("spring_ratio");
-    cell.volume_modulus = in.number("volume_modulus");
-    cell.area_modulus = in.number("area_modulus");
-    cell.local_area_modulus = in.number("local_area_modulus");
-    cell.bending_modulus = in.number("bending_modulus");
-    cell.ade_modulus = in.number("ade_modulus");
-    cell.spontaneous_curvature = in.maybe("spontaneous_curvature");
-    cell.relaxed_area_difference = in.maybe("relaxed_area_difference");
-    cell.membrane_viscosity = in.number("membrane_viscosity");
-    cell.area = in.maybe("area");
-    cell.volume = in.maybe("volume");
-    cell.cytosol_viscosity = in.number("cytosol_viscosity");
-    cell.position = in.vector("position");
-    cell.axis = in.vector("axis");
-    return cell;
 }
 
 TimeInput read_time(const Section& in) {
@@ -172,9 +133,7 @@ Case read_values(const toml::table& values) {
         c.numerics = read_numerics(*numerics);
     }
     if (const auto membrane = in.table("membrane")) {
-        c.membrane = {chosen<MembraneTask>(membrane->text("task"), {"relax", "stretch"}),
-                      membrane->numbers("forces"), membrane->text("experiment"),
-                      membrane->number("tolerance")};
+        c.membrane = read_membrane(*membrane);
     }
     if (const auto output = in.table("output")) {
         c.output = read_output(*output);

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "membrane/shapes.hpp"
 #include "apps/case_observables.hpp"
+#include "membrane/shapes.hpp"
+#include "membrane/stretch.hpp"
 #include "meshing/rectilinear.hpp"
 
 namespace hemoflux::apps {
@@ -24,7 +25,7 @@ enum class CellShape { discocyte, sphere, spheroid, evans_fung, file };
 enum class MembraneReference { stress_free, uniform, coarse_grained, spheroid, file, stored, automatic };
 enum class Kernel { lagrange, phi2, phi3, phi4 };
 enum class TimeScheme { euler, rk4, factored };
-enum class MembraneTask { relax, stretch };
+enum class MembraneTask { relax, stretch, shapes, moduli, recovery, calibrate };
 
 /// [fluid]
 struct FluidInput {
@@ -57,6 +58,7 @@ struct PatchInput {
 
 /// [[cell]]; lengths um, tensions N/m, energies J.
 struct CellInput {
+    std::string name;  ///< what tables and pictures call it; "": its number
     std::string mesh;  ///< "icosphere" or the path of a sphere mesh; unused when shape is file
     int nodes = 0;     ///< of the icosphere
     CellShape shape = CellShape::discocyte;
@@ -66,6 +68,10 @@ struct CellInput {
     MembraneReference reference = MembraneReference::automatic;
     std::string reference_file;
     double reference_reduced_volume = 0;
+    double camber = 0;  ///< um, of the start of a discocyte
+    membrane::InPlaneLaw law = membrane::InPlaneLaw::wlc;
+    double skalak_ratio = 1;  ///< C of the Skalak law
+    membrane::BendingScheme bending_scheme = membrane::BendingScheme::juelicher;
     double shear_modulus = 0;                       ///< K_S, N/m
     std::optional<double> spring_length;            ///< L_s0, um; empty: 1.16 mean edges of the relaxed disc
     std::optional<double> spring_ratio;             ///< r
@@ -117,9 +123,19 @@ struct NumericsInput {
 /// [membrane]: a cell alone.
 struct MembraneInput {
     MembraneTask task = MembraneTask::relax;
-    std::vector<double> forces;  ///< pN
-    std::string experiment;      ///< CSV file to compare with, columns F_pN, DA_um, DT_um; "": none
-    double tolerance = 2e-4;     ///< pN
+    std::vector<double> forces;         ///< pN
+    membrane::Grip grip;                ///< what each bead holds
+    bool dynamic = false;               ///< stretch in overdamped motion in place of the static solver
+    double fluid_viscosity = 0;         ///< Pa s, of the surrounding fluid's drag in overdamped motion
+    double duration = 0;                ///< s, of overdamped motion
+    std::string experiment;             ///< CSV file to compare with, columns F_pN, DA_um, DT_um; "": none
+    std::vector<std::string> recovery;  ///< CSV files to compare with, columns t (s) and L_W
+    /// c0, and M0 in units of 8 pi R0, whose combinations the task shapes goes through; empty: the cell's own.
+    std::vector<double> curvatures, area_differences;
+    bool refine = false;                       ///< repeat each shape with four times as many nodes
+    std::array<double, 2> shear_bounds{};      ///< N/m, between which the task calibrate seeks K_S
+    std::array<double, 2> curvature_bounds{};  ///< and c0
+    double tolerance = 2e-4;                   ///< pN
     bool operator==(const MembraneInput&) const = default;
 };
 

@@ -165,6 +165,29 @@ void check_time(const toml::table& values, const std::string& name) {
     }
 }
 
+void check_membrane(const Section& membrane, const std::vector<Section>& cells, const std::string& name) {
+    const std::string task = membrane.text("task");
+    if (cells.size() > 1 && (task == "relax-back" || task == "calibrate" || task == "moduli")) {
+        refuse(name, fmt::format("{} cells with membrane.task = \"{}\"", cells.size(), task), "it takes one",
+               "Keep one [[cell]]");
+    }
+    if (membrane.numbers("forces").empty()) {
+        refuse(name, "membrane.forces is empty", "there is nothing to apply",
+               "List forces, or leave the key out");
+    }
+    if (task == "calibrate" && !membrane.has("experiment")) {
+        refuse(name, "membrane.task = \"calibrate\" without membrane.experiment",
+               "there is nothing to fit to", "Name a CSV file with columns F_pN, DA_um, DT_um");
+    }
+    for (const char* key : {"shear_bounds", "curvature_bounds"}) {
+        const std::vector<double> bounds = membrane.numbers(key);
+        if (!(bounds.at(0) < bounds.at(1))) {
+            refuse(name, fmt::format("membrane.{} = [{}, {}]", key, bounds[0], bounds[1]),
+                   "the range is empty", "Give the lower bound first");
+        }
+    }
+}
+
 void check_cells(const toml::table& values, const std::string& name) {
     const std::vector<Section> cells = Section(case_schema(), values).tables("cell");
     const std::string kind = values["kind"].value_or(std::string());
@@ -172,15 +195,8 @@ void check_cells(const toml::table& values, const std::string& name) {
         refuse(name, "a [[cell]] in a case of kind \"fluid\"", "it would have no effect",
                "Write kind = \"coupled\", or remove the cell");
     }
-    if (kind == "membrane" && cells.size() != 1) {
-        refuse(name, fmt::format("{} cells in a case of kind \"membrane\"", cells.size()),
-               "one cell alone is relaxed or stretched", "Keep one [[cell]]");
-    }
-    const auto membrane = Section(case_schema(), values).table("membrane");
-    if (membrane && membrane->numbers("forces").empty()) {
-        refuse(name, "membrane.forces is empty", "there is nothing to apply",
-               "List forces, or leave the key out");
-    }
+    if (const auto membrane = Section(case_schema(), values).table("membrane"))
+        check_membrane(*membrane, cells, name);
     for (std::size_t c = 0; c < cells.size(); ++c) {
         const auto axis = cells[c].vector("axis");
         if (!(std::hypot(axis[0], axis[1], axis[2]) > 0)) {

@@ -53,8 +53,9 @@ membrane::Parameters membrane_parameters(const CellInput& cell) {
     membrane::Parameters p;
     p.constraint = {cell.volume_modulus / pressure_unit, cell.area_modulus / tension_unit,
                     cell.local_area_modulus / tension_unit};
-    p.bending = {cell.bending_modulus / energy_unit, cell.ade_modulus / energy_unit};
-    p.network = {cell.shear_modulus / tension_unit, cell.membrane_viscosity / surface_viscosity_unit};
+    p.bending = {cell.bending_modulus / energy_unit, cell.ade_modulus / energy_unit, cell.bending_scheme};
+    p.network = {cell.shear_modulus / tension_unit, cell.membrane_viscosity / surface_viscosity_unit,
+                 cell.law, cell.skalak_ratio};
     return p;
 }
 
@@ -67,6 +68,7 @@ membrane::ShapeOptions shape_options(const CellInput& cell, const membrane::Rela
                                    .route = cell.route,
                                    .reduced_volume = cell.reference_reduced_volume,
                                    .spring_length = cell.spring_length.value_or(0),
+                                   .camber = cell.camber,
                                    .relaxation = relaxation};
     if (options.reference == membrane::ReferenceKind::given) {
         CellInput file = cell;

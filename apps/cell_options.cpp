@@ -22,6 +22,8 @@ const Option options_of_a_cell[] = {
      "stress-free, uniform, coarse-grained, spheroid, file or stored [uniform; of a file its own]"},
     {"--reference-file", "reference_file", &CellOptions::reference_file,
      "Shape of the reference \"file\", with the cell's triangles"},
+    {"--law", "law", &CellOptions::law, "wlc, wlc-power, wlc-hydrostatic, neo-hookean or skalak [wlc]"},
+    {"--bending", "bending_scheme", &CellOptions::bending, "juelicher or gompper-kroll [juelicher]"},
     {"--shear-modulus", "shear_modulus", &CellOptions::shear_modulus, "K_S with its unit [6.1 uN/m]"},
     {"--spontaneous-curvature", "spontaneous_curvature", &CellOptions::spontaneous_curvature,
      "c0, C_0 in units of 1/R0 [6]"},

@@ -9,7 +9,7 @@ namespace hemoflux::apps {
 
 /// What the options hold; empty where they are not given.
 struct CellOptions {
-    std::string nodes, mesh, file, shape, route, reference, reference_file, shear_modulus,
+    std::string nodes, mesh, file, shape, route, reference, reference_file, law, bending, shear_modulus,
         spontaneous_curvature, area_difference;
     std::vector<std::string> sets;  ///< --set, any key of a case: table.key=value
 

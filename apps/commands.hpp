@@ -12,7 +12,7 @@ void add_run_command(CLI::App& program, int& code);
 void add_mesh_command(CLI::App& program);
 /// `hemoflux mesh hex cube|cylinder|pipe|constriction|box|check`, part of `mesh`.
 void add_mesh_hex_command(CLI::App& mesh);
-/// `hemoflux membrane relax|stretch`.
+/// `hemoflux membrane relax|stretch|shapes|moduli|relax-back|calibrate`.
 void add_membrane_command(CLI::App& program, int& code);
 /// `hemoflux bench` and `hemoflux bench thesis`.
 void add_bench_command(CLI::App& program);

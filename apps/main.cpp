@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/commands.hpp"
+#include "apps/output/gallery.hpp"
 #include "apps/output/pictures.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
@@ -83,6 +84,9 @@ int main(int argc, char** argv) {
         if (argc > 1 &&
             std::string(argv[1]) == "render-pictures") {  // the child that draws, see output/pictures.hpp
             return hemoflux::output::render_pictures_main({argv + 2, argv + argc});
+        }
+        if (argc > 1 && std::string(argv[1]) == "render-gallery") {
+            return hemoflux::output::render_gallery_main({argv + 2, argv + argc});
         }
         return run_program(argc, argv);
     } catch (const hemoflux::Error& error) {

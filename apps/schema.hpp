@@ -77,11 +77,12 @@ struct Table {
 /// The whole case file: its keys are title, kind and the tables.
 const Table& case_schema();
 
-/// Its table [[cell]].
+/// Its tables [[cell]] and [membrane].
 Table cell_table();
 /// Its tables [observables] and [[profile]].
 Table observables_table();
 Table profile_table();
+Table membrane_table();
 
 /// The known name nearest to `word` by edit distance, "" when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);

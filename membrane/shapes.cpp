@@ -1,5 +1,6 @@
 #include "membrane/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -36,6 +37,14 @@ Reference reference_of(const Topology& topology, const meshing::SurfaceMesh& sph
     return reference_from_shape(topology, disc, options.rest);
 }
 
+/// The shape bent upwards by z += camber (1 - rho^2 / rho_max^2).
+std::vector<Vec3d> bent(std::vector<Vec3d> shape, double camber) {
+    double greatest = 0;
+    for (const Vec3d& r : shape) greatest = std::max(greatest, r.x * r.x + r.y * r.y);
+    for (Vec3d& r : shape) r.z += camber * (1 - (r.x * r.x + r.y * r.y) / greatest);
+    return shape;
+}
+
 void centre(Cell& cell) {
     const Vec3d centroid = shape_moments(cell.topology->triangles(), cell.positions).centroid;
     for (Vec3d& r : cell.positions) r -= centroid;
@@ -51,11 +60,12 @@ Cell make_discocyte(const meshing::SurfaceMesh& sphere, const ShapeOptions& opti
     Batch batch(cell.topology, options.parameters,
                 reference_from_shape(*cell.topology, spheroid, options.rest));
     if (options.route == Route::deflation) {
-        batch.set_positions(0, spheroid);
+        batch.set_positions(0, bent(spheroid, options.camber));
         cell.relaxation = deflate(batch, options.rest.volume, options.relaxation);
     } else {
         const double size = std::sqrt(options.rest.area / meshing::evans_fung_area);
-        batch.set_positions(0, meshing::evans_fung(sphere, meshing::evans_fung_diameter * size).vertices);
+        batch.set_positions(0, bent(meshing::evans_fung(sphere, meshing::evans_fung_diameter * size).vertices,
+                                    options.camber));
         cell.relaxation = relax(batch, options.relaxation);
     }
     if (options.reference != ReferenceKind::spheroid) {

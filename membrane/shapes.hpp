@@ -41,6 +41,9 @@ struct ShapeOptions {
     Route route = Route::evans_fung;
     double reduced_volume = reference_reduced_volume;  ///< of the spheroid
     double spring_length = 0;  ///< of ReferenceKind::uniform_length, um; 0: 1.16 x the disc's mean_edge()
+    /// Height (um) by which the middle of the start shape stands above its rim: an up-down symmetric start
+    /// stays so, although a cup may have less energy.
+    double camber = 0;
     std::vector<Vec3d> reference_shape = {};  ///< um, the mesh's vertices, for ReferenceKind::given
     RelaxOptions relaxation{};
 };

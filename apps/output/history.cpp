@@ -60,8 +60,9 @@ Table read_table(const std::filesystem::path& path) {
     std::size_t number = 0, begin = 0;
     for (std::size_t end; (end = content.find('\n', begin)) != std::string::npos; begin = end + 1) {
         ++number;
+        if (content[begin] == '#') continue;
         const auto parts = split(content.substr(begin, end - begin));
-        if (number == 1) {
+        if (table.columns.empty()) {
             table.columns = parts;
             continue;
         }
@@ -76,7 +77,7 @@ Table read_table(const std::filesystem::path& path) {
                 throw malformed(path, number, fmt::format("\"{}\" is not a number", parts[c]));
         }
     }
-    if (number == 0) throw malformed(path, 1, "there is no header");
+    if (table.columns.empty()) throw malformed(path, 1, "there is no header");
     return table;
 }
 

@@ -17,7 +17,7 @@ struct Table {
     [[nodiscard]] std::vector<double> column(const std::string& name) const;
 };
 
-/// Reads a CSV file of numbers with one header line. A last line without its line end (the program was killed
+/// Reads a CSV file of numbers with one header line; lines that begin with # are comments. A last line without its line end (the program was killed
 /// while writing it) is left out. FileError when unreadable, InputError naming the line that is malformed.
 Table read_table(const std::filesystem::path& path);
 

@@ -1,6 +1,7 @@
 #include "apps/output/pictures.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -32,26 +33,33 @@ Pictures draw(const fs::path& folder, const PictureSpec& spec, const fs::path& g
     // a shell in between would resolve /proc/self/exe to itself
     const fs::path program = fs::canonical(given);
     const auto command = render_command(program, fs::absolute(folder), spec);
-    constexpr std::chrono::seconds limit{300};
-
-    const char* display = std::getenv("DISPLAY");
-    std::string reason = "there is no display and xvfb-run is missing (Debian packages xvfb, xauth)";
-    if (display && *display) {
-        const ChildResult result = run_child(command, "", limit);
-        if (result.ok()) return {pictures_in(folder), {}};
-        reason = result.why();
-    }
-    if (find_program("xvfb-run")) {
-        std::vector<std::string> hidden{"xvfb-run", "-a", "-s", "-screen 0 1280x1024x24"};
-        hidden.insert(hidden.end(), command.begin(), command.end());
-        const ChildResult result = run_child(hidden, "", limit);
-        if (result.ok()) return {pictures_in(folder), {}};
-        reason = result.why();
-    }
+    const std::string reason = run_on_display(command);
+    if (reason.empty()) return {pictures_in(folder), {}};
     return {pictures_in(folder), "no pictures: " + reason};
 }
 
 }  // namespace
+
+std::string run_on_display(const std::vector<std::string>& command) {
+    constexpr std::chrono::seconds limit{300};
+    const char* display = std::getenv("DISPLAY");
+    std::string reason = "there is no display and xvfb-run is missing (Debian packages xvfb, xauth)";
+    if (display && *display) {
+        const ChildResult result = run_child(command, "", limit);
+        if (result.ok()) return {};
+        reason = result.why();
+    }
+    if (find_program("xvfb-run")) {
+        // two searches for a free number that begin at the same one may both find it
+        const std::string number = std::to_string(99 + ::getpid() % 900);
+        std::vector<std::string> hidden{"xvfb-run", "-a", "-n", number, "-s", "-screen 0 1280x1024x24"};
+        hidden.insert(hidden.end(), command.begin(), command.end());
+        const ChildResult result = run_child(hidden, "", limit);
+        if (result.ok()) return {};
+        reason = result.why();
+    }
+    return reason;
+}
 
 std::vector<std::string> render_command(const fs::path& program, const fs::path& folder,
                                         const PictureSpec& spec) {

@@ -30,6 +30,10 @@ struct Pictures {
 Pictures make_pictures(const std::filesystem::path& folder, const PictureSpec& spec = {},
                        const std::filesystem::path& program = "/proc/self/exe");
 
+/// Runs a command that needs a display: on the one there is, else on a hidden one of xvfb-run. Returns why it
+/// failed; empty when it did not.
+std::string run_on_display(const std::vector<std::string>& command);
+
 /// The command line of the child: `program render-pictures FOLDER ...` with the spec as further words.
 std::vector<std::string> render_command(const std::filesystem::path& program,
                                         const std::filesystem::path& folder, const PictureSpec& spec);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,14 +33,22 @@ struct Range {
     [[nodiscard]] bool empty() const { return low > high; }
 };
 
+/// Ends of the error bar of a point; the point itself where it has none.
+std::array<double, 2> bar(const Curve& c, std::size_t i) {
+    if (i < c.y_low.size() && i < c.y_high.size() && std::isfinite(c.y_low[i]) && std::isfinite(c.y_high[i]))
+        return {c.y_low[i], c.y_high[i]};
+    const double e = i < c.y_error.size() && std::isfinite(c.y_error[i]) ? c.y_error[i] : 0.0;
+    return {c.y[i] - e, c.y[i] + e};
+}
+
 /// The y range that shows all curves and bands, with some air; gnuplot's own ignores bands.
 std::string y_range(const PlotSpec& spec) {
     Range range;
     for (const Curve& c : spec.curves)
         for (std::size_t i = 0; i < c.y.size(); ++i) {
-            const double e = i < c.y_error.size() ? c.y_error[i] : 0;
-            range.include(c.y[i] - e);
-            range.include(c.y[i] + e);
+            const auto [low, high] = bar(c, i);
+            range.include(low);
+            range.include(high);
         }
     for (const Band& b : spec.bands) {
         range.include(b.low);
@@ -84,9 +93,8 @@ std::string gnuplot_script(const PlotSpec& spec, const std::string& terminal,
                 s += "\n";
                 continue;
             }
-            s += fmt::format(
-                "{} {} {}\n", curve.x[i], curve.y[i],
-                i < curve.y_error.size() && std::isfinite(curve.y_error[i]) ? curve.y_error[i] : 0.0);
+            const auto [low, high] = bar(curve, i);
+            s += fmt::format("{} {} {} {}\n", curve.x[i], curve.y[i], low, high);
         }
         s += "END\n";
     }
@@ -111,15 +119,20 @@ std::string gnuplot_script(const PlotSpec& spec, const std::string& terminal,
     std::size_t points = 0;
     for (std::size_t c = 0; c < spec.curves.size(); ++c) {
         const Curve& curve = spec.curves[c];
-        const char* colour = colours[c % std::size(colours)];
+        const char* colour =
+            colours[(curve.colour < 0 ? c : static_cast<std::size_t>(curve.colour)) % std::size(colours)];
         // a filled dot, then open symbols around it, so that points on top of each other are all seen
         constexpr int symbols[] = {7, 6, 4, 8, 10, 12};
+        // points without a name belong to those before
+        const std::size_t which = curve.label.empty() && points > 0 ? points - 1 : points;
         const std::string symbol = fmt::format("pointtype {} pointsize {}",
-                                               symbols[points % std::size(symbols)], points == 0 ? 0.9 : 1.4);
-        if (curve.points) ++points;
-        const std::string style = !curve.points           ? "using 1:2 with lines lw 2"
-                                  : curve.y_error.empty() ? "using 1:2 with points " + symbol
-                                                          : "using 1:2:3 with yerrorbars " + symbol;
+                                               symbols[which % std::size(symbols)], which == 0 ? 0.9 : 1.4);
+        if (curve.points && !curve.label.empty()) ++points;
+        const bool bars = !curve.y_error.empty() || !curve.y_low.empty();
+        const std::string style = !curve.points ? (curve.dashed ? "using 1:2 with lines dashtype 2 lw 2"
+                                                                : "using 1:2 with lines lw 2")
+                                  : bars        ? "using 1:2:3:4 with yerrorbars " + symbol
+                                                : "using 1:2 with points " + symbol;
         add(fmt::format("$curve{} {} lc rgb '{}' title {}", c, style, colour, quoted(curve.label)));
     }
     return s + plots + "\n";

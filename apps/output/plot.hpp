@@ -11,9 +11,12 @@ namespace hemoflux::output {
 /// One curve or set of points.
 struct Curve {
     std::string label;
-    std::vector<double> x, y;          ///< of equal size; NaN breaks the line
-    bool points = false;               ///< symbols (measurements, references) in place of a line
-    std::vector<double> y_error = {};  ///< half-widths of error bars, with points; empty: none
+    std::vector<double> x, y;                     ///< of equal size; NaN breaks the line
+    bool points = false;                          ///< symbols (measurements, references) in place of a line
+    std::vector<double> y_error = {};             ///< half-widths of error bars, with points; empty: none
+    std::vector<double> y_low = {}, y_high = {};  ///< ends of error bars, with points, in place of y_error
+    int colour = -1;                              ///< number in the palette; -1: the next one
+    bool dashed = false;                          ///< a broken line
 };
 
 /// A horizontal band: an accepted interval, or a single value when low == high.

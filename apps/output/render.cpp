@@ -109,16 +109,6 @@ std::vector<long long> farthest_vertices(vtkPolyData* cells) {
     return marked;
 }
 
-void write_png(const fs::path& path, vtkImageData* image) {
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(image);
-    writer->WriteToMemoryOn();
-    writer->Write();
-    vtkUnsignedCharArray* png = writer->GetResult();
-    write_file(path, {reinterpret_cast<const char*>(png->GetPointer(0)),
-                      static_cast<std::size_t>(png->GetNumberOfValues())});
-}
-
 /// All pictures side by side, three in a row, at half their size.
 vtkSmartPointer<vtkImageData> montage(const std::vector<vtkSmartPointer<vtkImageData>>& images) {
     constexpr std::size_t across = 3;
@@ -144,6 +134,16 @@ vtkSmartPointer<vtkImageData> montage(const std::vector<vtkSmartPointer<vtkImage
 }
 
 }  // namespace
+
+void write_png(const fs::path& path, vtkImageData* image) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(image);
+    writer->WriteToMemoryOn();
+    writer->Write();
+    vtkUnsignedCharArray* png = writer->GetResult();
+    write_file(path, {reinterpret_cast<const char*>(png->GetPointer(0)),
+                      static_cast<std::size_t>(png->GetNumberOfValues())});
+}
 
 void render_pictures(const fs::path& folder, const PictureSpec& spec) {
     const auto frames = read_frames(folder, std::max(spec.count, 1));

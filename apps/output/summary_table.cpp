@@ -27,7 +27,7 @@ const char* word(Comparison::Verdict verdict) {
 
 void add(std::string& text, const char* name, double value, const char* format) {
     if (std::isfinite(value))
-        text += fmt::format("  {:<34}{}\n", name, fmt::format(fmt::runtime(format), value));
+        text += fmt::format("  {:<33} {}\n", name, fmt::format(fmt::runtime(format), value));
 }
 
 void add_references(std::string& text, const Summary& summary) {
@@ -37,7 +37,7 @@ void add_references(std::string& text, const Summary& summary) {
                         "reference", "delta", "accepted", "");
     for (const auto& c : comparisons) {
         const auto& reference = c.reference.reference;
-        text += fmt::format("  {:<34}{:>12.6g}{:>12}{:>11}  {:<20}{}\n", c.name, c.value,
+        text += fmt::format("  {:<33} {:>12.6g}{:>12}{:>11}  {:<20}{}\n", c.name, c.value,
                             reference ? fmt::format("{:.6g}", *reference) : "-",
                             c.relative ? fmt::format("{:+.2f} %", 100 * *c.relative) : "-",
                             interval(c.reference), word(c.verdict));
@@ -53,7 +53,7 @@ std::string to_table(const Summary& s) {
     add_references(text, s);
     std::string rest;
     for (const auto& [name, value] : s.observables)
-        if (!s.references.contains(name)) rest += fmt::format("  {:<34}{:.6g}\n", name, value);
+        if (!s.references.contains(name)) rest += fmt::format("  {:<33} {:.6g}\n", name, value);
     if (!rest.empty()) text += "Observables\n" + rest;
 
     std::string kept;

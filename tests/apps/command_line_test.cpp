@@ -206,8 +206,8 @@ TEST_F(CommandLine, MembraneStretchWritesItsCurve) {
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_EQ(outcome.text, "");
     const output::Table table = output::read_table(folder_ / "pulled" / "stretch.csv");
-    EXPECT_EQ(table.columns, (std::vector<std::string>{"force_pN", "axial_um", "transverse_um", "iterations",
-                                                       "area_error", "volume_error"}));
+    EXPECT_EQ(table.columns, (std::vector<std::string>{"cell", "force_pN", "axial_um", "transverse_um",
+                                                       "iterations", "area_error", "volume_error"}));
     ASSERT_EQ(table.rows.size(), 2u);
     EXPECT_DOUBLE_EQ(table.column("force_pN")[1], 100);
     EXPECT_NEAR(table.column("axial_um")[1], 13.21,
