@@ -91,10 +91,10 @@ struct Balances {
 
     HEMOFLUX_INLINE void cell(std::size_t i) const {
         const std::uint32_t* side = grid.side + hex_sides * i;
+        constexpr double sign[2] = {-1, 1};
         Four in(0.0);
         for (std::size_t j = 0; j < hex_sides; ++j) {
-            const double sign = 2.0 * (side[j] & 1u) - 1.0;
-            in += sign * load_four(flux + 4 * std::size_t{side[j] >> 1});
+            in += sign[side[j] & 1u] * load_four(flux + 4 * std::size_t{side[j] >> 1});
         }
         double* out = rate + 4 * i;
         store_four(out, grid.inverse_volume[i] * in);
