@@ -82,12 +82,23 @@ struct TileResidual {
         for (int c = 0; c < 4; ++c) exchange::store(&x.values[c][i - r.i0], q.c[c]);
     }
 
+    /// The mass flux through the lower x face of cell i, if that lies on the border and is given.
+    HEMOFLUX_INLINE void prescribe_x(Fluxes& x, const Range& r, std::ptrdiff_t i, std::ptrdiff_t j,
+                                     std::ptrdiff_t k) const {
+        Quad<Real> mass;
+        mass.c[0] = x.values[0][i - r.i0];
+        balance.template prescribe_mass<Real, 0>(mass, i - 1, j, k);
+        x.values[0][i - r.i0] = mass.c[0];
+    }
+
+    /// 1 / width of the cells from i on.
     HEMOFLUX_INLINE Pack inverse_width(std::ptrdiff_t i) const {
         const double* inverse = balance.grid.axis[0].inverse;
-        if constexpr (F::cubic)
-            return Pack(Real(inverse[0]));
-        else
-            return exchange::load<Pack>(inverse + i);
+        Pack result = static_cast<Real>(inverse[0]);
+        if constexpr (!F::cubic) {
+            result = exchange::load<Pack>(inverse + i);
+        }
+        return result;
     }
 
     /// Fluxes through all x faces of one row, and what they and the body force give to R.
@@ -95,11 +106,8 @@ struct TileResidual {
         Fluxes x;
         for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) x_flux<Pack>(x, row, r, i, j, k);
         if ((r.i1 - r.i0) % w == 0) x_flux<Real>(x, row, r, r.i1, j, k);
-        for (const std::ptrdiff_t face : {r.i0, r.i1}) {
-            Quad<Real> mass{{x.values[0][face - r.i0], 0, 0, 0}};
-            balance.template prescribe_mass<Real, 0>(mass, face - 1, j, k);
-            x.values[0][face - r.i0] = mass.c[0];
-        }
+        prescribe_x(x, r, r.i0, j, k);
+        prescribe_x(x, r, r.i1, j, k);
         for (std::ptrdiff_t i = r.i0; i < r.i1; i += w) {
             const std::size_t at = balance.grid.layout.at(i, j, k);
             const Pack inv_dx = inverse_width(i);
