@@ -18,9 +18,9 @@
 /// +-1, hold V = a - s1 d1 - s2 d2, and because s1^2 = s2^2 = 1 everything about them is of the form
 /// x0 + s1 x1 + s2 x2 + s1 s2 x12; the sums over the nodes of f, s1 f and s2 f are 4 x0, 4 x1 and 4 x2 of the
 /// product rho * [...]. Likewise the two nodes on a tangent, m ahead and behind the face's centre, have an
-/// even and an odd part. That takes 153 operations a face in place of 260 (tests/bench/roofline.hpp counts
-/// them). All sums are kept times 18, which makes their weights whole numbers; and f/w - 1 is summed instead
-/// of f/w, which lets single precision store rho - 1.
+/// even and an odd part: about half the operations (tests/bench/roofline.hpp counts them). All sums are kept times 18,
+/// which makes their weights whole numbers; and f/w - 1 is summed instead of f/w, which lets single precision store
+/// rho - 1.
 #pragma once
 
 #include "exchange/pack.hpp"

@@ -1,8 +1,14 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "benchmarks.hpp"
 #include "fluid/factored.hpp"
+#include "fluid/hex_solver.hpp"
+#include "fluid/single_residual.hpp"
 #include "fluid_problem.hpp"
+#include "meshing/hex_box.hpp"
+#include "roofline.hpp"
 #include "scalar_lbfs.hpp"
 
 namespace hemoflux::bench {
@@ -10,9 +16,46 @@ namespace {
 
 using benchmark::RegisterBenchmark;
 
+/// Rates of operations and of memory traffic beside items_per_second.
+void count(benchmark::State& state, std::size_t cells, const Work& work) {
+    const double items = static_cast<double>(cells) * static_cast<double>(state.iterations());
+    using benchmark::Counter;
+    state.counters["FLOP/s"] = Counter(items * work.operations, Counter::kIsRate);
+    state.counters["B/s"] = Counter(items * work.bytes, Counter::kIsRate);
+}
+
 void residual(benchmark::State& state, int n, Features features, int threads) {
     const FluidProblem problem({n, n, n}, features);
     measure(state, threads, problem.cells(), [&] { problem.evaluate(); });
+    count(state, problem.cells(), features == Features::plain ? cubic_work : full_work);
+}
+
+/// In single precision; the state is rounded once.
+void residual_single(benchmark::State& state, int n, int threads) {
+    const FluidProblem problem({n, n, n}, Features::plain);
+    fluid::SingleResidual single(problem.grid.view());
+    single.round(problem.state.view());
+    measure(state, threads, problem.cells(),
+            [&] { single.evaluate_rounded(problem.boundary.view(), problem.parameters); });
+    count(state, problem.cells(), single_work);
+}
+
+/// With ghost cells and gradients, on a box of shuffled hexahedra.
+void residual_unstructured(benchmark::State& state, int n, int threads) {
+    const double edge = n * FluidProblem::width;
+    meshing::BoxDistortion shuffled;
+    shuffled.shuffle = true;
+    fluid::HexPatches walls;
+    for (const char* name : {"x-", "x+", "y-", "y+", "z-", "z+"}) walls[name] = fluid::wall_patch();
+    fluid::SolverOptions options;
+    options.nu = 0.5 * FluidProblem::width;
+    fluid::HexSolver solver(
+        meshing::make_hex_grid(meshing::box_mesh({0, 0, 0}, {edge, edge, edge}, {n, n, n}, shuffled)), walls,
+        options);
+    solver.initialise([&](const Vec3d& x) {
+        return fluid::FlowPoint{1, {0.05 * std::sin(6 * x.y / edge), 0.05 * std::sin(6 * x.z / edge), 0}};
+    });
+    measure(state, threads, solver.cells(), [&] { solver.evaluate(); });
 }
 
 void residual_by_cell(benchmark::State& state, int n, Features features) {
@@ -69,6 +112,14 @@ void add_fluid_benchmarks() {
             ->UseRealTime()
             ->Unit(benchmark::kMillisecond);
         for (const int threads : thread_counts()) {
+            RegisterBenchmark(fmt::format("residual_single/{}/{}", n, threads).c_str(), residual_single, n,
+                              threads)
+                ->UseRealTime()
+                ->Unit(benchmark::kMillisecond);
+            RegisterBenchmark(fmt::format("residual_unstructured/{}/{}", n, threads).c_str(),
+                              residual_unstructured, n, threads)
+                ->UseRealTime()
+                ->Unit(benchmark::kMillisecond);
             RegisterBenchmark(fmt::format("ghost_fill/{}/{}", n, threads).c_str(), ghost_fill, n, threads)
                 ->UseRealTime()
                 ->Unit(benchmark::kMillisecond);
