@@ -9,8 +9,11 @@
 #include "apps/flow_observer.hpp"
 #include "apps/output/plane_plot.hpp"
 #include "fluid/grid_interpolant.hpp"
+#include "fluid/hex_probe.hpp"
+#include "fluid/hex_solver.hpp"
 #include "fluid/solver.hpp"
 #include "fluid/streamfunction.hpp"
+#include "fluid/vorticity.hpp"
 #include "fluid/wall.hpp"
 
 namespace hemoflux::apps {
@@ -45,7 +48,9 @@ Plane sample(const fluid::Probe& probe, Lattice lattice, const Place& place,
     Plane plane{std::move(lattice), {}, {}, {}};
     for (const double y : plane.lattice.y)
         for (const double x : plane.lattice.x) {
-            const bool solid = !body.empty() && inside(body, x, y);
+            // a little inside the outline too, so that colours and lines reach it
+            constexpr double rim = 0.97;
+            const bool solid = !body.empty() && inside(body, x / rim, y / rim);
             const auto q = solid ? std::array<double, 4>{NAN, NAN, NAN, NAN} : probe(place(x, y));
             plane.u.push_back(unit * q[1 + components[0]]);
             plane.v.push_back(unit * q[1 + components[1]]);
@@ -69,6 +74,21 @@ std::vector<double> vorticity(const Plane& plane) {
             zeta.push_back(slope(plane.v, l.at(i0, j), l.at(i1, j), x[i1] - x[i0]) -
                            slope(plane.u, l.at(i, j0), l.at(i, j1), y[j1] - y[j0]));
         }
+    return zeta;
+}
+
+/// The solver's own, between the cells of an unstructured grid.
+template <class Place>
+std::vector<double> vorticity(const fluid::HexSolver& solver, const Plane& plane, const Place& place,
+                              double unit) {
+    std::vector<double> cells;
+    for (const auto& gradient : solver.gradients()) cells.push_back(unit * fluid::vorticity(gradient).z);
+    const fluid::HexInterpolant at(solver.grid(), 1, std::move(cells), {});
+    std::vector<double> zeta(plane.lattice.size(), NAN);
+    for (std::size_t j = 0; j < plane.lattice.y.size(); ++j)
+        for (std::size_t i = 0; i < plane.lattice.x.size(); ++i)
+            if (const std::size_t p = plane.lattice.at(i, j); std::isfinite(plane.speed[p]))
+                at(place(plane.lattice.x[i], plane.lattice.y[j]), &zeta[p]);
     return zeta;
 }
 
@@ -191,13 +211,17 @@ std::string FlowObserver::draw(const output::OutputFolder& folder) const {
                       plane.speed,
                       {flow_lines(plane, spacing)},
                       outline});
+    const auto* hex = dynamic_cast<const fluid::HexSolver*>(&flow_);
+    const auto zeta = hex ? vorticity(*hex, plane, place, unit * length_) : vorticity(plane);
+    std::vector<double> levels = vorticity_levels;
+    if (body) std::erase(levels, 0.0);  // the stream around a body has none: its zero is noise
     make("vorticity", {case_.title + ": vorticity L / U",
                        "x / L",
                        "y / L",
                        "",
                        plane.lattice,
                        {},
-                       contours(plane.lattice, vorticity(plane), vorticity_levels),
+                       contours(plane.lattice, zeta, levels),
                        outline});
     const auto* solver = dynamic_cast<const fluid::Solver*>(&flow_);
     if (!case_.observables->cavity || !solver) return message;

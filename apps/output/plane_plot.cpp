@@ -51,8 +51,7 @@ std::string script_of(const PlanePlot& p, const std::filesystem::path& path) {
         // viridis, read as well in grey and by colour-blind readers
         s += "set palette defined (0 '#440154', 1 '#414487', 2 '#2a788e', 3 '#22a884', 4 '#7ad151', 5 "
              "'#fde725')\n";
-        s += fmt::format("set cblabel {} noenhanced\nset datafile missing 'nan'\n$colour << END\n",
-                         quoted(p.colour_label));
+        s += fmt::format("set cblabel {} noenhanced\n$colour << END\n", quoted(p.colour_label));
         for (std::size_t j = 0; j < y.size(); ++j)
             for (std::size_t i = 0; i < x.size(); ++i)
                 fmt::format_to(std::back_inserter(s), "{:.6g} {:.6g} {:.5g}\n", x[i], y[j],
