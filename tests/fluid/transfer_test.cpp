@@ -61,7 +61,7 @@ TEST(PointFlow, OnePlaneOfPoints) {
     EXPECT_NEAR(flow({0.5, 0, 0}).velocity.z, 2, 1e-15);
 }
 
-// A solution of a coarser grid saves more than half of the way.
+// A solution of a coarser grid saves part of the way to the same residual.
 TEST(PointFlow, StartsASteadyRun) {
     SteadyOptions o;
     o.tolerance = 1e-6;
