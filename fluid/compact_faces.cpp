@@ -1,6 +1,7 @@
 // The faces of a rectilinear grid for implicit methods.
 #include <algorithm>
 
+#include "exchange/error.hpp"
 #include "fluid/solver.hpp"
 
 namespace hemoflux::fluid {
@@ -28,6 +29,11 @@ std::vector<double> ghost_offsets(const GhostRule& rule, std::size_t n1, std::si
 }  // namespace
 
 CompactModel Solver::compact_model() const {
+    if (options_.single_precision)
+        throw InputError(
+            "implicit steps in single precision",
+            "products with the Jacobian are differences of residuals, which need double precision",
+            "use double precision, or local time steps");
     const auto& n = grid_.view().layout.n;
     const Numbering number{{n[0], n[1], n[2]}};
     const auto& axes = grid_.rectilinear().axes;
