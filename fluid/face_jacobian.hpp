@@ -45,7 +45,7 @@ struct FaceJacobian {
     /// d flux / d phi of the left (side 0) or right cell, in the face's frame: d[flux][phi].
     HEMOFLUX_INLINE void derivative(int side, const Value (&left)[4], const Value (&right)[4],
                                     Value (&d)[4][4]) const {
-        constexpr double step = 1e-6;
+        constexpr double step = 1e-8;  // truncation and rounding both near 1e-8
         const Quad<Value> base = flux(left, right);
         for (int k = 0; k < 4; ++k) {
             Value l[4], r[4];

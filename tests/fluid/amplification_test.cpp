@@ -94,7 +94,7 @@ TEST(Amplification, BoundariesOfTheRegion) {
 
 // Shear waves: real eigenvalues, nu k^2 for long waves.
 TEST(Amplification, ShearWavesDecayByThePolynomial) {
-    for (const int waves : {1, 3, 8}) {
+    for (const int waves : {1, 3, 7}) {
         Mode mode{waves, 0.05};
         const double lambda = mode.rate({0, 0, 1})[2].real();
         const double k = 2 * pi * waves / length;

@@ -83,7 +83,7 @@ std::vector<double> compact_residual(const std::vector<double>& q, std::size_t a
 }  // namespace
 
 // (I/dt - J) z by differences of the fluxes written out above, then the factors: z comes back, for every axis and every
-// condition of the border.
+// condition of the border, to single precision; terms of 1/gamma^2 beside ones of order 1 cost digits at gamma = 0.1.
 TEST(CompactMatrix, SolvesARowExactly) {
     Patch inflow = velocity_patch([](const Vec3d&) { return Vec3d{0.05, 0.02, 0.01}; });
     inflow.density = DensityCondition::given;
@@ -98,7 +98,7 @@ TEST(CompactMatrix, SolvesARowExactly) {
                 Solver solver = row(axis, end[0], end[1], gamma);
                 exchange::Buffer<double> q(4 * n), dt(n), x(4 * n);
                 solver.read_conserved(q.data());
-                const double step = 1e-6, time_step = 0.02, scale[4] = {2, 3, 3, 3};
+                const double step = 1e-8, time_step = 0.02, scale[4] = {2, 3, 3, 3};
                 dt.fill(time_step);
                 const std::vector<double> state = q.to_host();
                 std::vector<double> z(4 * n), moved = state, volume(n);
@@ -118,7 +118,7 @@ TEST(CompactMatrix, SolvesARowExactly) {
                 matrix.solve(exchange::Buffer<float>(right).data(), scale, x.data());
                 const auto solution = x.to_host();
                 for (std::size_t i = 0; i < z.size(); ++i)
-                    ASSERT_NEAR(solution[i], z[i], 2e-4)
+                    ASSERT_NEAR(solution[i], z[i], gamma == 1 ? 1e-5 : 5e-4)
                         << axis << " " << &end - ends << " " << gamma << " " << i;
             }
 }
