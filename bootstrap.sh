@@ -8,6 +8,7 @@ packages=(
   libthrust-dev libtbb-dev libeigen3-dev libfmt-dev             # loops, linear algebra, text
   libcgal-dev libgmsh-dev libvtk9-dev libjsoncpp-dev libboost-dev # meshes, files, pictures
   libcli11-dev libtomlplusplus-dev libudunits2-dev libspdlog-dev # command line, case files, units, log
+  libmuparser-dev                                               # expressions in case files
   liblbfgspp-dev                                                # static relaxation
   libgtest-dev libbenchmark-dev                                 # tests
   gnuplot-nox xvfb xauth libgl1-mesa-dri fonts-dejavu-core      # plots and pictures

@@ -5,67 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/case_flow.hpp"
 #include "apps/case_membrane.hpp"
 #include "apps/case_rules.hpp"
 #include "apps/choice.hpp"
 #include "apps/toml_input.hpp"
-#include "apps/units.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
 namespace {
-
-FluidInput read_fluid(const Section& in, bool sheared) {
-    const std::string initial = in.text("initial");
-    const bool shear = initial == "shear" || (initial == "auto" && sheared);
-    return {in.number("density"), in.number("viscosity"), shear ? InitialFlow::shear : InitialFlow::rest};
-}
-
-GridInput read_grid(const Section& in) {
-    GridInput grid;
-    const std::vector<std::string> kinds = in.texts("kind");
-    const std::vector<double> length = in.numbers("length");
-    const std::vector<double> cells = in.numbers("cells");
-    if (const auto plateau = in.table("plateau")) {
-        grid.plateau_a = plateau->number("a");
-        grid.plateau_b = plateau->number("b");
-    }
-    const auto faces = in.table("faces");
-    const double scale = faces ? conversion(faces->text("unit"), "um") : 1.0;
-    for (std::size_t d = 0; d < 3; ++d) {
-        grid.kind[d] = chosen<AxisKind>(kinds[kinds.size() == 3 ? d : 0],
-                                        {"uniform", "plateau", "chebyshev", "explicit"});
-        if (grid.kind[d] == AxisKind::given) {
-            grid.faces[d] = faces ? faces->numbers(std::string(1, "xyz"[d])) : std::vector<double>();
-            for (double& face : grid.faces[d]) {
-                face *= scale;
-            }
-        } else if (!length.empty() && !cells.empty()) {
-            grid.length[d] = length[d];
-            grid.cells[d] = static_cast<int>(cells[d]);
-            grid.lower[d] = in.text("origin") == "corner" ? 0.0 : -length[d] / 2;
-        }
-    }
-    return grid;
-}
-
-PatchInput read_patch(const Section& in) {
-    PatchInput patch;
-    const std::vector<double> vector = in.numbers("velocity");
-    if (!vector.empty()) {
-        patch.velocity = VelocityCondition::vector;
-        patch.vector = in.vector("velocity");
-    } else {
-        patch.velocity = chosen<VelocityCondition>(
-            in.text("velocity"), {"periodic", "shear", "no-slip", "zero-gradient", "symmetry"});
-    }
-    const std::string text = in.text("density");
-    if (const auto value = in.maybe("density")) {
-        patch.density = text.empty() ? DensityCondition::density : DensityCondition::pressure;
-        patch.value = *value;
-    }
-    return patch;
-}
 
 TimeInput read_time(const Section& in) {
     return {chosen<TimeScheme>(in.text("scheme"), {"euler", "rk4", "factored"}), in.maybe("strain"),
@@ -73,9 +21,15 @@ TimeInput read_time(const Section& in) {
 }
 
 NumericsInput read_numerics(const Section& in) {
-    return {in.number("lattice_viscosity"),  in.number("reynolds"), in.maybe("mach"),
-            in.maybe("step_strain"),         in.number("gamma"),    in.number("tau_floor"),
-            in.text("precision") == "single"};
+    return {in.maybe("lattice_viscosity"),
+            in.maybe("reynolds"),
+            in.maybe("mach"),
+            in.maybe("speed"),
+            in.maybe("step_strain"),
+            in.maybe("gamma"),
+            in.number("tau_floor"),
+            in.text("precision") == "single",
+            chosen<Gradient>(in.text("gradient"), {"least-squares", "green-gauss", "hybrid"})};
 }
 
 OutputInput read_output(const Section& in) {
@@ -104,9 +58,15 @@ Case read_values(const toml::table& values) {
         c.fluid = read_fluid(*fluid, c.shear_rate.has_value());
     }
     if (const auto grid = in.table("grid")) {
-        c.grid = read_grid(*grid);
+        if (const auto mesh = grid->table("mesh")) {
+            c.mesh = read_mesh(*mesh);
+        } else {
+            c.grid = read_grid(*grid);
+        }
     }
-    if (const auto boundary = in.table("boundary")) {
+    if (const auto boundary = in.table("boundary"); boundary && c.mesh) {
+        c.patches = read_patches(*boundary);
+    } else if (boundary) {
         for (std::size_t d = 0; d < 3; ++d) {
             for (std::size_t side = 0; side < 2; ++side) {
                 const std::string both(1, "xyz"[d]);
@@ -117,7 +77,13 @@ Case read_values(const toml::table& values) {
         }
     }
     if (const auto force = in.table("body_force")) {
-        c.acceleration = force->vector("acceleration");
+        c.body_force = read_body_force(*force);
+    }
+    if (const auto steady = in.table("steady")) {
+        c.steady = read_steady(*steady);
+    }
+    if (const auto exact = in.table("analytical")) {
+        c.analytical = read_analytical(*exact);
     }
     for (const Section& cell : in.tables("cell")) {
         c.cells.push_back(read_cell(cell));
@@ -156,9 +122,14 @@ Case finish(toml::table values, const std::string& name, const std::filesystem::
     for (const std::string& assignment : overrides) {
         override_value(values, assignment);
     }
-    const toml::table resolved = resolve(case_schema(), values, folder);
+    toml::table resolved = resolve(case_schema(), values, folder);
     check_rules(resolved, name);
     Case c = read_values(resolved);
+    if (resolved.contains("sweep")) {
+        c.sweep = read_sweep(*Section(case_schema(), resolved).table("sweep"),
+                             *values["sweep"]["values"].as_table());
+        resolved.erase("sweep");
+    }
     for (CellInput& cell : c.cells) {
         const double length = std::hypot(cell.axis[0], cell.axis[1], cell.axis[2]);
         for (double& component : cell.axis) {

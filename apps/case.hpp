@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,15 +18,28 @@ namespace hemoflux::apps {
 using Triple = std::array<double, 3>;
 
 enum class CaseKind { coupled, fluid, membrane };
-enum class InitialFlow { rest, shear };
+enum class InitialFlow { rest, shear, analytical };
 enum class AxisKind { uniform, plateau, chebyshev, given };
-enum class VelocityCondition { periodic, shear, no_slip, zero_gradient, symmetry, vector };
-enum class DensityCondition { zero_gradient, density, pressure };
+enum class VelocityCondition {
+    periodic,
+    shear,
+    no_slip,
+    zero_gradient,
+    symmetry,
+    parabolic,
+    expression,
+    vector
+};
+enum class DensityCondition { zero_gradient, gradient, expression, density, pressure };
 enum class CellShape { discocyte, sphere, spheroid, evans_fung, file };
 enum class MembraneReference { stress_free, uniform, coarse_grained, spheroid, file, stored, automatic };
 enum class Kernel { lagrange, phi2, phi3, phi4 };
 enum class TimeScheme { euler, rk4, factored };
 enum class MembraneTask { relax, stretch, shapes, moduli, recovery, calibrate };
+enum class SteadyMethod { implicit, local_steps };
+enum class SteadyCriterion { momentum, residual, velocity_change };
+enum class Gradient { least_squares, green_gauss, hybrid };
+enum class ExactSolution { couette, poiseuille, taylor_green, womersley };
 
 /// [fluid]
 struct FluidInput {
@@ -46,12 +60,27 @@ struct GridInput {
     bool operator==(const GridInput&) const = default;
 };
 
-/// One side of the box.
+/// grid.mesh; numbers that are not given are the generator's own.
+struct MeshInput {
+    std::string kind, file;
+    double unit = 1;                       ///< um per unit of length of the file
+    double size = 0;                       ///< um
+    std::map<std::string, double> values;  ///< the other keys
+    bool operator==(const MeshInput&) const = default;
+};
+
+/// One side of the box, or one patch of a mesh.
 struct PatchInput {
     VelocityCondition velocity = VelocityCondition::periodic;
     Triple vector{};  ///< um/s, for VelocityCondition::vector
     DensityCondition density = DensityCondition::zero_gradient;
-    double value = 0;  ///< density relative to the reference density, or pressure above the reference in Pa
+    double value =
+        0;  ///< density relative to the reference density, pressure above the reference in Pa, or its
+            ///< gradient along the inward normal in Pa/m
+    double speed = 0;                                ///< of VelocityCondition::parabolic, into the box, um/s
+    std::array<std::string, 3> velocity_expression;  ///< m/s
+    std::string pressure_expression;                 ///< Pa
+    std::string partner;                             ///< of a mesh: the periodic patch opposite
     [[nodiscard]] bool periodic() const { return velocity == VelocityCondition::periodic; }
     bool operator==(const PatchInput&) const = default;
 };
@@ -110,14 +139,56 @@ struct TimeInput {
 
 /// [numerics]; empty optionals are chosen by the program.
 struct NumericsInput {
-    double lattice_viscosity = 0.5;  ///< nu/h
-    double reynolds = 2;             ///< Re_G
+    std::optional<double> lattice_viscosity;  ///< nu/h, kind coupled
+    std::optional<double> reynolds;           ///< Re_G, kind coupled
     std::optional<double> mach;
+    std::optional<double> speed;  ///< that mach refers to, um/s, kind fluid
     std::optional<double> step_strain;
-    double gamma = 1;
+    std::optional<double> gamma = 1;  ///< empty: chosen
     double tau_floor = 0.05;
     bool single_precision = false;  ///< of the residual
+    Gradient gradient = Gradient::least_squares;
     bool operator==(const NumericsInput&) const = default;
+};
+
+/// [body_force]
+struct BodyForceInput {
+    Triple acceleration{};  ///< m/s^2
+    Triple amplitude{};     ///< N/m^3
+    double period = 0;      ///< s; 0: nothing oscillates
+    double phase = 0;       ///< degrees
+    bool operator==(const BodyForceInput&) const = default;
+};
+
+/// [steady]
+struct SteadyInput {
+    SteadyMethod method = SteadyMethod::implicit;
+    SteadyCriterion criterion = SteadyCriterion::momentum;
+    double tolerance = 1e-5;
+    int iterations = 0;
+    double sigma = 1, viscous_weight = 4;
+    std::string start;  ///< folder; "": from fluid.initial
+    bool operator==(const SteadyInput&) const = default;
+};
+
+/// [analytical]
+struct AnalyticalInput {
+    ExactSolution solution = ExactSolution::couette;
+    double speed = 0;           ///< um/s
+    std::vector<double> times;  ///< in decay times or periods
+    bool operator==(const AnalyticalInput&) const = default;
+};
+
+/// [sweep]: values as TOML text, [key][value].
+struct SweepInput {
+    std::vector<std::string> keys;
+    std::vector<std::vector<std::string>> values;
+    bool product = false;
+    std::vector<std::string> observables, order;
+    std::optional<std::array<double, 2>> order_range;
+    bool difference = false;
+    bool log_x = true, log_y = true;
+    bool operator==(const SweepInput&) const = default;
 };
 
 /// [membrane]: a cell alone.
@@ -159,6 +230,9 @@ struct ReferenceInput {
     bool operator==(const ReferenceInput&) const = default;
 };
 
+/// Whether a reference is of a sweep (an order of convergence, which one run does not have).
+inline bool of_sweep(const ReferenceInput& reference) { return reference.observable.starts_with("order_"); }
+
 /// A whole case. `resolved` is its TOML text with every default filled in; reading that gives an equal case.
 struct Case {
     std::string title;
@@ -166,8 +240,13 @@ struct Case {
     FluidInput fluid;
     GridInput grid;
     std::array<std::array<PatchInput, 2>, 3> boundary{};  ///< [axis][lower, upper]
-    std::optional<double> shear_rate;                     ///< 1/s
-    Triple acceleration{};                                ///< m/s^2
+    std::optional<MeshInput> mesh;                        ///< in place of `grid` and `boundary`
+    std::map<std::string, PatchInput> patches;            ///< of the mesh
+    std::optional<SteadyInput> steady;
+    std::optional<double> shear_rate;  ///< 1/s
+    BodyForceInput body_force;
+    std::optional<AnalyticalInput> analytical;
+    std::optional<SweepInput> sweep;  ///< not part of `resolved`: a run is one point
     std::vector<CellInput> cells;
     CouplingInput coupling;
     TimeInput time;

@@ -49,7 +49,7 @@ void check_inside(const Case& c, std::size_t index, const meshing::SurfaceMesh& 
 
 std::vector<std::string> check_case(const Case& c) {
     std::vector<std::string> warnings;
-    const bool flow = c.kind != CaseKind::membrane;
+    const bool flow = c.kind != CaseKind::membrane && !c.mesh;
     const meshing::RectilinearGrid grid = flow ? make_grid(c.grid) : meshing::RectilinearGrid{};
     for (std::size_t i = 0; i < c.cells.size(); ++i) {
         meshing::SurfaceMesh surface = start_shape(c.cells[i]);

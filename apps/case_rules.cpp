@@ -23,7 +23,8 @@ void need_tables(const toml::table& values, const std::string& name) {
     const std::string kind = values["kind"].value_or(std::string());
     std::vector<std::string> needed;
     if (kind != "membrane") {
-        needed = {"fluid", "grid", "boundary", "time"};
+        needed = {"fluid", "grid", "boundary"};
+        if (!values.contains("steady")) needed.emplace_back("time");
     }
     if (kind != "fluid") {
         needed.emplace_back("cell");
@@ -51,8 +52,15 @@ Side side_of(const toml::table& boundary, const std::string& key) {
 
 void check_boundary(const toml::table& values, const std::string& name) {
     const toml::table* boundary = values["boundary"].as_table();
-    if (boundary == nullptr) {
+    if (boundary == nullptr || values["grid"]["mesh"].is_table()) {
         return;
+    }
+    const std::vector<std::string> sides{"x", "y", "z", "x-", "x+", "y-", "y+", "z-", "z+"};
+    for (const auto& [side, patch] : *boundary) {
+        if (std::find(sides.begin(), sides.end(), std::string(side.str())) == sides.end()) {
+            refuse(name, fmt::format("unknown key \"{}\" in [boundary]", side.str()),
+                   "a box has the sides x-, x+, y-, y+, z-, z+", suggestion(side.str(), sides));
+        }
     }
     for (const std::string axis : {"x", "y", "z"}) {
         const Side both = side_of(*boundary, axis);
@@ -95,6 +103,9 @@ void check_grid(const toml::table& values, const std::string& name) {
         return;
     }
     const Section grid = *Section(case_schema(), values).table("grid");
+    if (grid.table("mesh")) {
+        return;
+    }
     std::vector<std::string> kinds = grid.texts("kind");
     kinds.resize(3, kinds.front());
     const auto has_kind = [&](const char* kind) {
@@ -128,12 +139,18 @@ void check_grid(const toml::table& values, const std::string& name) {
 }
 
 void check_time(const toml::table& values, const std::string& name) {
-    if (!values.contains("time")) {
+    if (!values.contains("time") || values.contains("steady")) {
         return;
     }
     const Section top(case_schema(), values);
     const Section time = *top.table("time");
-    if (time.has("strain") == time.has("duration")) {
+    const auto exact = top.table("analytical");
+    const bool timed = exact && !exact->numbers("times").empty();
+    if (timed && (time.has("strain") || time.has("duration"))) {
+        refuse(name, "analytical.times and the length of the run are both given",
+               "the last of the times ends the run", "Remove time.duration, or the times");
+    }
+    if (!timed && time.has("strain") == time.has("duration")) {
         refuse(name,
                time.has("strain") ? "time.strain and time.duration are both given" : "the run has no length",
                "exactly one of them says when it ends", "Keep one, e.g. strain = 25 in [time]");
@@ -251,6 +268,7 @@ void check_rules(const toml::table& resolved, const std::string& name) {
     check_cells(resolved, name);
     check_observables(resolved, name);
     check_references(resolved, name);
+    check_flow_rules(resolved, name);
 }
 
 }  // namespace hemoflux::apps

@@ -11,4 +11,7 @@ namespace hemoflux::apps {
 /// grid parameters of the chosen spacing, references. `name` is the file in messages. Throws InputError.
 void check_rules(const toml::table& resolved, const std::string& name);
 
+/// The part of them about patches, forces, exact solutions and sweeps.
+void check_flow_rules(const toml::table& resolved, const std::string& name);
+
 }  // namespace hemoflux::apps

@@ -19,9 +19,10 @@ Table fluid_table() {
               "dynamic viscosity of the suspending fluid",
               true},
              {"initial",
-              {choice({"auto", "rest", "shear"})},
+              {choice({"auto", "rest", "shear", "analytical"})},
               "\"auto\"",
-              "flow at the start; auto: shear where [shear] is given, else rest"}}};
+              "flow at the start; auto: shear where [shear] is given, else rest; analytical: as [analytical] "
+              "at t = 0"}}};
 }
 
 Table grid_table() {
@@ -34,6 +35,10 @@ Table grid_table() {
               {choice(kinds), choice(kinds).of(3)},
               "\"uniform\"",
               "spacing, of all axes or one word per axis"},
+             {"mesh",
+              {table(mesh_table())},
+              "",
+              "an unstructured mesh of hexahedra in place of the box, kind fluid"},
              {"length",
               {quantity_in("um").above(0, positive_length).of(3)},
               "",
@@ -72,60 +77,48 @@ Table grid_table() {
               "face coordinates of explicit axes"}}};
 }
 
-Table boundary_table() {
-    const Form patch =
-        table({"boundary.patch",
-               "Conditions on one side of the box; the velocity and the density condition are independent.",
-               {{"velocity",
-                 {choice({"shear", "no-slip", "zero-gradient", "symmetry"}), quantity_in("um/s").of(3)},
-                 "",
-                 "velocity on the side: u = G y e_x, zero, copied from inside, mirrored, or a vector",
-                 true},
-                {"density",
-                 {choice({"zero-gradient"}), number().above(0, "a density is positive"), quantity_in("Pa")},
-                 "\"zero-gradient\"",
-                 "density relative to the reference density, or a pressure above the reference"}}});
-    const auto side = [&](const char* name, const char* meaning) {
-        return Key{name, {choice({"periodic"}), patch}, "", meaning};
-    };
-    return {"boundary",
-            "One key per side, or one for both sides of an axis.",
-            {side("x", "both sides in x"), side("y", "both sides in y"), side("z", "both sides in z"),
-             side("x-", "lower side in x"), side("x+", "upper side in x"), side("y-", "lower side in y"),
-             side("y+", "upper side in y"), side("z-", "lower side in z"), side("z+", "upper side in z")}};
-}
-
 Table numerics_table() {
-    return {"numerics",
-            "Numerical parameters; chosen and printed with their estimated errors when left out.",
-            {{"lattice_viscosity",
-              {number().above(0, "a viscosity is positive")},
-              "0.5",
-              "nu/h of the more viscous fluid in lattice units; sets the accuracy"},
-             {"reynolds",
-              {number().above(0, "a Reynolds number is positive")},
-              "2",
-              "Re_G = G D^2/nu of the computation (capillary scaling)"},
-             {"mach",
-              {automatic(), number().within(1e-6, 0.3, "the scheme is weakly compressible")},
-              "\"auto\"",
-              "wall speed over the speed of sound; auto: follows from the two above"},
-             {"step_strain",
-              {automatic(), number().above(0, "a time step is positive")},
-              "\"auto\"",
-              "time step in strain units"},
-             {"gamma",
-              {number().within(1e-4, 1, "gamma = 1 means no preconditioning")},
-              "1",
-              "preconditioning (4.2)"},
-             {"tau_floor",
-              {number().within(0, 10, "tau - 1/2 is not negative")},
-              "0.05",
-              "lower bound of tau - 1/2"},
-             {"precision",
-              {choice({"double", "single"})},
-              "\"double\"",
-              "of the residual; single is faster and for fluid runs on cubic cells, error about 1e-5 of it"}}};
+    return {
+        "numerics",
+        "Numerical parameters; chosen and printed with their estimated errors when left out.",
+        {{"lattice_viscosity",
+          {automatic(), number().above(0, "a viscosity is positive")},
+          "\"auto\"",
+          "kind coupled: nu/h of the more viscous fluid in lattice units; sets the accuracy; auto: 0.5"},
+         {"reynolds",
+          {automatic(), number().above(0, "a Reynolds number is positive")},
+          "\"auto\"",
+          "kind coupled: Re_G = G D^2/nu of the computation (capillary scaling); auto: 2"},
+         {"mach",
+          {automatic(), number().within(1e-6, 0.3, "the scheme is weakly compressible")},
+          "\"auto\"",
+          "largest speed over the speed of sound; auto: follows from the two above (coupled), or 0.1 "
+          "(fluid)"},
+         {"speed",
+          {automatic(), quantity_in("um/s").above(0, "a speed is positive")},
+          "\"auto\"",
+          "kind fluid: speed that mach refers to; auto: the fastest that sides, forces and solution suggest"},
+         {"step_strain",
+          {automatic(), number().above(0, "a time step is positive")},
+          "\"auto\"",
+          "time step in strain units"},
+         {"gamma",
+          {automatic(), number().within(1e-4, 1, "gamma = 1 means no preconditioning")},
+          "1",
+          "preconditioning (4.2); auto, in steady runs: by the strategy of Table 4.1, printed with its "
+          "reasons"},
+         {"tau_floor",
+          {number().within(0, 10, "tau - 1/2 is not negative")},
+          "0.05",
+          "lower bound of tau - 1/2"},
+         {"precision",
+          {choice({"double", "single"})},
+          "\"double\"",
+          "of the residual; single is faster and for fluid runs on cubic cells, error about 1e-5 of it"},
+         {"gradient",
+          {choice({"least-squares", "green-gauss", "hybrid"})},
+          "\"least-squares\"",
+          "kind fluid: operator for the gradients (A.29-A.35); hybrid on unstructured grids only"}}};
 }
 
 Table output_table() {
@@ -143,7 +136,7 @@ Table output_table() {
               "5",
               "strain between two checkpoints; 0: none"},
              {"fields",
-              {choice({"velocity", "density", "viscosity", "force"}).of(Form::any)},
+              {choice({"velocity", "density", "pressure", "vorticity", "viscosity", "force"}).of(Form::any)},
               "[\"velocity\", \"density\", \"viscosity\"]",
               "fluid fields in the .vtr files"},
              {"pictures", {flag()}, "true", "PNG and SVG pictures at the end"},
@@ -174,12 +167,13 @@ const Table& case_schema() {
                {{"rate", {quantity_in("1/s").above(0, "strain is the clock of the run")}, "", "G", true}}})},
           "",
           "needed by velocity = \"shear\" and by strain"},
-         {"body_force",
-          {table({"body_force",
-                  "A constant force on the fluid.",
-                  {{"acceleration", {quantity_in("m/s^2").of(3)}, "", "force per mass", true}}})},
+         {"body_force", {table(body_force_table())}, "", "optional"},
+         {"steady",
+          {table(steady_table())},
           "",
-          "optional"},
+          "kind fluid: iterates to the steady state, in place of [time]"},
+         {"analytical", {table(analytical_table())}, "", "kind fluid"},
+         {"sweep", {table(sweep_table())}, "", "optional"},
          {"cell", {table(cell_table()).of(Form::any)}, "", "kinds coupled and membrane"},
          {"coupling",
           {table({"coupling",

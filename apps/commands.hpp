@@ -8,6 +8,8 @@ namespace hemoflux::apps {
 
 /// `hemoflux run CASE.toml`. The callback stores the exit code of the run in `code`.
 void add_run_command(CLI::App& program, int& code);
+/// `hemoflux sweep CASE.toml`.
+void add_sweep_command(CLI::App& program, int& code);
 /// `hemoflux mesh grid|rbc|hex`.
 void add_mesh_command(CLI::App& program);
 /// `hemoflux mesh hex cube|cylinder|pipe|constriction|box|check`, part of `mesh`.

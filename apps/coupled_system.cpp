@@ -49,8 +49,8 @@ void check_supported(const Case& c) {
     if (c.numerics.single_precision)
         throw InputError("numerics.precision \"single\"", "cells exert a body force, which needs double",
                          "Leave numerics.precision out");
-    if (c.numerics.gamma != 1)
-        throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma),
+    if (c.numerics.gamma != 1.0)
+        throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma.value_or(0)),
                          "preconditioning changes the path in time, and a coupled run is unsteady",
                          "Set it to 1");
     for (const CellInput& cell : c.cells)
@@ -133,7 +133,7 @@ std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::Rectilin
     for (const CellInput& cell : c.cells)
         o.smallest_nu = std::min(o.smallest_nu > 0 ? o.smallest_nu : n.nu,
                                  n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
-    set_acceleration(c, scales, o);
+    set_body_force(c, scales, o);
     o.tau_floor = c.numerics.tau_floor;
     o.scheme = scheme_of(c.time.scheme);
     auto solver = std::make_unique<fluid::Solver>(grid, make_patches(c, scales, n.rate), o);
@@ -176,8 +176,8 @@ coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& gr
     p.wall_distance = shear_reach(grid);
     p.smallest_cell = grid.smallest();
     coupling::NumericsChoice choice;
-    choice.lattice_viscosity = c.numerics.lattice_viscosity;
-    choice.reynolds = c.numerics.reynolds;
+    choice.lattice_viscosity = c.numerics.lattice_viscosity.value_or(0.5);
+    choice.reynolds = c.numerics.reynolds.value_or(2);
     choice.mach = c.numerics.mach.value_or(0);
     choice.step_strain = c.time.step ? *c.time.step * *c.shear_rate : c.numerics.step_strain.value_or(0);
     choice.kernel = kernel_of(c.coupling.kernel);

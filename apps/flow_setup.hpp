@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/case.hpp"
+#include "fluid/hex_boundary.hpp"
 #include "fluid/solver.hpp"
 
 namespace hemoflux::apps {
@@ -16,20 +17,27 @@ struct Scales {
     [[nodiscard]] double time_s() const { return 1 / velocity_um_per_s; }
 };
 
-/// Patches of the case's boundary in lattice units. rate: lattice shear rate, c/um.
-fluid::Patches make_patches(const Case& c, const Scales& scales, double rate);
+/// Scales of a case of kind fluid whose lattice speed is this many um/s.
+Scales fluid_scales(const Case& c, double velocity_um_per_s);
+
+/// Patches of the case's boundary in lattice units. rate: lattice shear rate, c/um. Throws InputError when an
+/// expression cannot be read.
+fluid::Patches make_patches(const Case& c, const Scales& scales, double rate, double gamma = 1);
+/// The same for the patches of a mesh that are not periodic.
+fluid::HexPatches make_hex_patches(const Case& c, const Scales& scales, double rate, double gamma);
 
 /// Start of the flow: at rest, or u = rate y.
 std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate);
 
-/// Puts the case's acceleration into the solver's options as a uniform body force.
-void set_acceleration(const Case& c, const Scales& scales, fluid::SolverOptions& options);
+/// Puts the case's constant and oscillating body force into the solver's options.
+void set_body_force(const Case& c, const Scales& scales, fluid::SolverOptions& options);
 
-/// Largest speed that a side of given velocity has, um/s.
+/// Largest speed that a side of given velocity has, um/s; expressions are taken at t = 0 and at 16 times of the run.
 double fastest_side(const Case& c);
 
-/// The solver's scheme.
+/// The solver's scheme and gradient operator.
 fluid::Scheme scheme_of(TimeScheme scheme);
+fluid::GradientMethod gradient_of(Gradient gradient);
 
 /// Largest |y| of the box, um: where a shear flow about y = 0 is fastest.
 double shear_reach(const meshing::RectilinearGrid& grid);

@@ -10,8 +10,10 @@
 #include "apps/fluid_system.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/output/convergence_plot.hpp"
+#include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/run_files.hpp"
+#include "apps/steady_run.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
@@ -37,9 +39,8 @@ class FluidRun {
   private:
     std::optional<FlowObserver> make_observer() {
         if (!case_.observables) return std::nullopt;
-        const auto& [x, y, z] = system_.grid.axes;
-        const FlowBox box{{x.lower(), y.lower(), z.lower()}, {x.upper(), y.upper(), z.upper()}};
-        return FlowObserver(case_, system_.scales, box, system_.solver.options().gamma, system_.solver);
+        return FlowObserver(case_, system_.scales, system_.domain.bounds, system_.options().gamma,
+                            *system_.flow);
     }
 
     [[nodiscard]] double interval(double strain) const {
@@ -49,43 +50,34 @@ class FluidRun {
 
     void begin() {
         catch_interrupts();
-        files_.log().info(
-            fmt::format("{}\n  grid          {} x {} x {} cells, smallest {:.4g} um\n"
-                        "  fluid         nu/h = {:.3g}, Ma = {:.3g} at {:.4g} um/s\n"
-                        "  step          {} steps of {:.4g} s\n"
-                        "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; "
-                        "stress = {:.4g} Pa",
-                        case_.title, system_.grid.axes[0].cells(), system_.grid.axes[1].cells(),
-                        system_.grid.axes[2].cells(), system_.grid.smallest(),
-                        system_.solver.options().nu / system_.grid.smallest(), system_.mach, system_.speed,
-                        system_.plan.steps, system_.plan.step, system_.scales.velocity_um_per_s,
-                        system_.scales.time_s(), system_.scales.pressure_pa));
+        files_.log().info(fmt::format("{}\n  step          {} steps of {:.4g} s", describe(case_, system_),
+                                      system_.plan.steps, system_.plan.step));
         if (files_.restart()) {
-            for (int q = 0; q < 4; ++q)
-                system_.solver.state().set_interior(
-                    system_.solver.state().view().q[q],
-                    files_.restart()->array(names[q], system_.solver.grid().view().layout.cells()));
+            load_flow(*system_.flow, *files_.restart());
             first_density_ = files_.restart()->number("first_density");
+            if (system_.errors) system_.errors->load(*files_.restart());
         } else {
-            first_density_ = system_.solver.mean_density();
+            first_density_ = system_.flow->mean_density();
         }
         done_ = files_.first_step();
         evaluations_before_ = files_.restart() ? files_.restart()->number("evaluations") : 0;
-        files_.start_history(
-            {"step", "time_s", "largest_speed_um_per_s", "mean_density", "residual", "dt_s"});
+        std::vector<std::string> columns{"step",         "time_s",   "largest_speed_um_per_s",
+                                         "mean_density", "residual", "dt_s"};
+        if (system_.errors) columns.insert(columns.end(), {"centre_u_um_per_s", "centre_exact_um_per_s"});
+        files_.start_history(columns);
         files_.start_series(system_.plan.at(done_));
         if (!files_.restart()) {
             record();
+            observe();
         }
-        if (!files_.restart() || files_.moved())
-            files_.write_frame(case_, system_.scales, system_.solver, nullptr, system_.plan.at(done_));
+        if (!files_.restart() || files_.moved()) write_frame(files_, case_, system_, system_.plan.at(done_));
         if (files_.moved()) files_.write_checkpoint(checkpoint(), done_);
     }
 
     int march() {
         output::Progress progress(system_.plan.at(done_), system_.plan.at(system_.plan.steps), "s",
                                   options_.quiet);
-        const auto cells = static_cast<double>(system_.solver.grid().view().layout.cells());
+        const auto cells = static_cast<double>(system_.flow->cells());
         const double frames = interval(case_.output.interval_strain);
         const double rows =
             case_.shear_rate ? case_.output.history_interval_strain / *case_.shear_rate : frames / 10;
@@ -94,30 +86,32 @@ class FluidRun {
         output::Checkpoint good = checkpoint();
         long long good_step = done_;
         while (done_ < system_.plan.steps) {
-            system_.solver.step(system_.plan.step / system_.scales.time_s());
+            system_.flow->set_time(system_.plan.at(done_) / system_.scales.time_s());
+            system_.flow->step(system_.plan.step / system_.scales.time_s());
             ++done_;
+            observe();
             const bool last = done_ == system_.plan.steps, frame = last || due(system_.plan, done_, frames);
             const bool row = frame || due(system_.plan, done_, rows), stop = interrupted();
             if (row || stop || done_ % watch_interval == 0) check(good, good_step);
             if (row) record();
             if (frame) {
-                files_.write_frame(case_, system_.scales, system_.solver, nullptr, system_.plan.at(done_));
+                write_frame(files_, case_, system_, system_.plan.at(done_));
                 good = checkpoint();
                 good_step = done_;
             }
             if (last || stop || due(system_.plan, done_, saves)) files_.write_checkpoint(checkpoint(), done_);
             progress.update(
-                {done_, system_.plan.at(done_), cells * static_cast<double>(system_.solver.evaluations())});
+                {done_, system_.plan.at(done_), cells * static_cast<double>(system_.flow->evaluations())});
             if (stop && !last) return static_cast<int>(Exit::interrupted);
         }
         return static_cast<int>(Exit::done);
     }
 
     void check(const output::Checkpoint& good, long long good_step) {
-        const std::size_t bad = system_.solver.first_bad_cell();
-        if (bad == system_.solver.grid().view().layout.cells()) return;
+        const std::size_t bad = system_.flow->first_bad_cell();
+        if (bad == system_.flow->cells()) return;
         files_.write_checkpoint(good, good_step);
-        const Vec3d at = system_.solver.centre(bad);
+        const Vec3d at = system_.flow->centre(bad);
         throw NumericalError(
             fmt::format("fluid cell {} at ({:.3f}, {:.3f}, {:.3f}) um", bad, at.x, at.y, at.z),
             fmt::format("its density or velocity is no longer a sound number at {:.4g} s; the last "
@@ -127,23 +121,36 @@ class FluidRun {
     }
 
     void record() {
-        const fluid::ResidualNorm r = system_.solver.residual_norm();
-        files_.add_row({static_cast<double>(done_), system_.plan.at(done_),
-                        system_.solver.largest_speed() * system_.scales.velocity_um_per_s,
-                        system_.solver.mean_density(), r.density, system_.plan.step});
+        const fluid::ResidualNorm r = system_.flow->residual_norm();
+        std::vector<double> row{static_cast<double>(done_),
+                                system_.plan.at(done_),
+                                system_.flow->largest_speed() * system_.scales.velocity_um_per_s,
+                                system_.flow->mean_density(),
+                                r.density,
+                                system_.plan.step};
+        if (system_.errors) {
+            const auto centre = system_.errors->centre(*system_.flow, system_.plan.at(done_));
+            row.insert(row.end(), centre.begin(), centre.end());
+        }
+        files_.add_row(row);
+    }
+
+    void observe() {
+        if (system_.errors && system_.errors->due(done_))
+            system_.errors->observe(*system_.flow, system_.plan.at(done_));
     }
 
     [[nodiscard]] output::Checkpoint checkpoint() const {
         output::Checkpoint cp;
-        for (int q = 0; q < 4; ++q)
-            cp.put(names[q], system_.solver.state().interior(system_.solver.state().view().q[q]));
+        save_flow(*system_.flow, cp);
         cp.put_number("first_density", first_density_);
         cp.put_number("evaluations", evaluations());
+        if (system_.errors) system_.errors->save(cp);
         return cp;
     }
 
     [[nodiscard]] double evaluations() const {
-        return evaluations_before_ + static_cast<double>(system_.solver.evaluations());
+        return evaluations_before_ + static_cast<double>(system_.flow->evaluations());
     }
 
     void finish(int code) {
@@ -154,24 +161,23 @@ class FluidRun {
         }
         output::Summary s = start_summary(case_);
         s.observables["largest_speed_um_per_s"] =
-            system_.solver.largest_speed() * system_.scales.velocity_um_per_s;
+            system_.flow->largest_speed() * system_.scales.velocity_um_per_s;
         s.observables["time_s"] = system_.plan.at(done_);
         if (observer_) {
             const std::string failed = observer_->observe(s, files_.folder());
             if (!failed.empty()) files_.log().warn(failed);
         }
+        if (system_.errors) compare(s);
         if (case_.shear_rate) {
             const double strain = system_.plan.at(done_) * *case_.shear_rate;
-            s.conservation.mean_density_per_strain =
-                (system_.solver.mean_density() - first_density_) / strain;
+            s.conservation.mean_density_per_strain = (system_.flow->mean_density() - first_density_) / strain;
             s.performance.residuals_per_strain = evaluations() / strain;
         }
         s.performance.wall_s = wall_s_;
         s.performance.cpu_s = output::cpu_seconds();
         s.performance.steps = static_cast<double>(done_);
-        s.performance.cell_residuals_per_s =
-            static_cast<double>(system_.solver.evaluations()) *
-            static_cast<double>(system_.solver.grid().view().layout.cells()) / wall_s_;
+        s.performance.cell_residuals_per_s = static_cast<double>(system_.flow->evaluations()) *
+                                             static_cast<double>(system_.flow->cells()) / wall_s_;
         s.performance.peak_rss_mib = output::peak_rss_mib();
         s.errors_estimated["compressibility"] = system_.mach * system_.mach;
         output::write_summary(files_.folder().summary(), s);
@@ -182,7 +188,7 @@ class FluidRun {
 
     void draw() {
         if (!observer_ || !case_.output.pictures) {
-            draw_pictures(case_, files_, "time in s");
+            if (system_.domain.box) draw_pictures(case_, files_, "time in s");
             return;
         }
         const auto stem = files_.folder().path() / "plot_convergence";
@@ -192,7 +198,28 @@ class FluidRun {
             if (!failed.empty()) files_.log().warn(failed);
     }
 
-    static constexpr const char* names[4] = {"fluid.density", "fluid.u", "fluid.v", "fluid.w"};
+    void compare(output::Summary& s) {
+        system_.errors->report(s);
+        const bool pictures = case_.output.pictures;
+        const std::string failed = system_.errors->write(files_.folder(), case_.title, pictures);
+        if (!failed.empty()) files_.log().warn(failed);
+        if (!pictures) return;
+        output::PlotSpec plot{
+            .title = case_.title, .x_label = "t / s", .y_label = "u in the middle / um/s", .curves = {}};
+        output::Curve computed, exact;
+        computed.label = "computed";
+        exact.label = "exact";
+        for (const auto& row : files_.rows()) {
+            computed.x.push_back(row[1]);
+            exact.x.push_back(row[1]);
+            computed.y.push_back(row[row.size() - 2]);
+            exact.y.push_back(row.back());
+        }
+        plot.curves = {exact, computed};
+        if (const auto message = output::plot(plot, files_.folder().path() / "plot_centre"))
+            files_.log().warn(*message);
+    }
+
     const Case& case_;
     const RunOptions& options_;
     FluidSystem system_;  // before the files: a case that it refuses leaves nothing behind
@@ -206,6 +233,7 @@ class FluidRun {
 
 int run_fluid(const Case& c, const RunOptions& options) {
     if (options.threads > 0) exchange::set_threads(options.threads);
+    if (c.steady) return run_steady(c, options);
     return FluidRun(c, options).go();
 }
 

@@ -62,6 +62,7 @@ int run_program(int argc, char** argv) {
     program.require_subcommand(1);
     int code = static_cast<int>(hemoflux::Exit::done);
     hemoflux::apps::add_run_command(program, code);
+    hemoflux::apps::add_sweep_command(program, code);
     hemoflux::apps::add_mesh_command(program);
     hemoflux::apps::add_membrane_command(program, code);
     hemoflux::apps::add_bench_command(program);

@@ -25,10 +25,11 @@ std::string place(const toml::source_region& source) {
 /// One value with its address, checked against the forms of its key.
 class Checker {
   public:
-    Checker(const Key& key, std::string address, const fs::path& folder)
-        : key_(key), address_(std::move(address)), folder_(folder) {}
+    /// name: the key's name in the file.
+    Checker(const Key& key, std::string name, std::string address, const fs::path& folder)
+        : key_(key), name_(std::move(name)), address_(std::move(address)), folder_(folder) {}
 
-    /// Appends the checked value to `out` under its key.
+    /// Appends the checked value to `out` under its name.
     void check(const toml::node& value, toml::table& out) const;
 
   private:
@@ -40,7 +41,7 @@ class Checker {
                              const std::string& remedy = "") const;
 
     const Key& key_;
-    std::string address_;
+    std::string name_, address_;
     const fs::path& folder_;
 };
 
@@ -69,6 +70,8 @@ bool scalar_fits(const Form& form, const toml::node& value) {
             return value.is_boolean();
         case Type::table:
             return value.is_table();
+        case Type::anything:
+            return true;
     }
     return false;
 }
@@ -122,14 +125,14 @@ void Checker::check_scalar(const Form& form, const toml::node& value) const {
 void Checker::check_as(const Form& form, const toml::node& value, toml::table& out) const {
     if (form.type == Type::table) {
         if (form.count == Form::single) {
-            out.insert_or_assign(key_.name, resolve(form.members.at(0), *value.as_table(), folder_));
+            out.insert_or_assign(name_, resolve(form.members.at(0), *value.as_table(), folder_));
             return;
         }
         toml::array tables;
         for (const toml::node& item : *value.as_array()) {
             tables.push_back(resolve(form.members.at(0), *item.as_table(), folder_));
         }
-        out.insert_or_assign(key_.name, std::move(tables));
+        out.insert_or_assign(name_, std::move(tables));
         return;
     }
     if (const toml::array* array = value.as_array()) {
@@ -146,9 +149,9 @@ void Checker::check_as(const Form& form, const toml::node& value, toml::table& o
         out.insert_or_assign(key_.name, std::move(files));
     } else if (form.type == Type::path) {
         const fs::path file = *value.value<std::string>();
-        out.insert_or_assign(key_.name, (folder_ / file).lexically_normal().string());
+        out.insert_or_assign(name_, (folder_ / file).lexically_normal().string());
     } else {
-        out.insert_or_assign(key_.name, value);
+        out.insert_or_assign(name_, value);
     }
 }
 
@@ -183,8 +186,19 @@ toml::table resolve(const Table& schema, const toml::table& values, const fs::pa
         }
     }
     toml::table out;
+    const auto address = [&](const std::string& name) {
+        return top ? name : fmt::format("{}.{}", schema.name, name);
+    };
+    if (!schema.others.empty()) {
+        for (const auto& [key, value] : values) {
+            const std::string name(key.str());
+            if (schema.find(name) == &schema.others.front()) {
+                Checker(schema.others.front(), name, address(name), folder).check(value, out);
+            }
+        }
+    }
     for (const Key& key : schema.keys) {
-        const Checker checker(key, top ? key.name : fmt::format("{}.{}", schema.name, key.name), folder);
+        const Checker checker(key, key.name, address(key.name), folder);
         if (const toml::node* value = values.get(key.name)) {
             checker.check(*value, out);
         } else if (!key.standard.empty()) {

@@ -5,6 +5,7 @@
 #include "apps/case_check.hpp"
 #include "apps/commands.hpp"
 #include "apps/run.hpp"
+#include "apps/sweep.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
@@ -50,22 +51,41 @@ int run(Arguments& arguments) {
     return run_case(c, arguments.options);
 }
 
-}  // namespace
-
-void add_run_command(CLI::App& program, int& code) {
-    CLI::App* command = program.add_subcommand("run", "Run a case");
-    const auto arguments = std::make_shared<Arguments>();
-    command->add_option("CASE", arguments->file, "Case file (TOML)");
-    command->add_option("--output,-o", arguments->options.output, "Output folder [results/CASE]");
+/// What run and sweep have in common.
+CLI::App* add_options(CLI::App& program, const char* name, const char* meaning, Arguments& arguments) {
+    CLI::App* command = program.add_subcommand(name, meaning);
+    command->add_option("CASE", arguments.file, "Case file (TOML)");
+    command->add_option("--output,-o", arguments.options.output, "Output folder [results/CASE]");
     command
-        ->add_option("--threads,-t", arguments->options.threads,
+        ->add_option("--threads,-t", arguments.options.threads,
                      "Threads; 0: HEMOFLUX_THREADS, else all cores")
         ->check(CLI::Range(0, 4096));
-    command->add_option("--set", arguments->options.sets, "Override a key of the case: table.key=value")
+    command->add_option("--set", arguments.options.sets, "Override a key of the case: table.key=value")
         ->allow_extra_args(false);
+    command->add_flag("--check", arguments.check, "Check the case, print what would be run, and stop");
+    command->add_flag("--quiet,-q", arguments.options.quiet, "Print errors only");
+    return command;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& program, int& code) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = add_options(program, "sweep", "Run a case for all values of its [sweep]", *arguments);
+    command->footer(
+        "The same command continues a sweep that was interrupted.\n"
+        "Examples: hemoflux sweep apps/cases/taylor_green_space.toml\n"
+        "          hemoflux sweep case.toml --set numerics.gradient=green-gauss --output results/sweep");
+    command->callback([arguments, &code] {
+        complete(*arguments);
+        code = run_sweep(arguments->file, arguments->options, arguments->check);
+    });
+}
+
+void add_run_command(CLI::App& program, int& code) {
+    const auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = add_options(program, "run", "Run a case", *arguments);
     command->add_option("--restart", arguments->options.restart, "Continue the run in this folder");
-    command->add_flag("--check", arguments->check, "Check the case, print it with all defaults, and stop");
-    command->add_flag("--quiet,-q", arguments->options.quiet, "Print errors only");
     command->footer(
         "Examples: hemoflux run apps/cases/tank_treading.toml --threads 2\n"
         "          hemoflux run case.toml --set shear.rate=\"5 1/s\" --set cell.0.nodes=642 --output "

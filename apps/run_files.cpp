@@ -25,28 +25,61 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
     return values;
 }
 
+/// Curl of the velocity in every cell, from the solver's own gradients, times `factor`.
+output::DataArray vorticity(const fluid::Flow& flow, double factor) {
+    const auto gradients = flow.gradients();
+    std::vector<double> x(gradients.size()), y(gradients.size()), z(gradients.size());
+    for (std::size_t i = 0; i < gradients.size(); ++i) {
+        const auto& [density, u, v, w] = gradients[i];
+        x[i] = factor * (w.y - v.z);
+        y[i] = factor * (u.z - w.x);
+        z[i] = factor * (v.x - u.y);
+    }
+    return output::vector_array("vorticity_1_per_s", x, y, z);
+}
+
 /// The fields the case asks for, in physical units.
-std::vector<output::DataArray> fluid_arrays(const Case& c, const Scales& s, const fluid::Solver& fluid) {
-    const fluid::State& state = fluid.state();
-    const fluid::StateView& v = state.view();
+std::vector<output::DataArray> fluid_arrays(const Case& c, const Scales& s, const fluid::Flow& flow,
+                                            double gamma) {
+    const auto* solver = dynamic_cast<const fluid::Solver*>(&flow);
+    const fluid::StateView view = solver ? solver->state().view() : fluid::StateView{};
     const auto field = [&](const double* values, double factor) {
-        return scaled(state.interior(values), factor);
+        return scaled(solver->state().interior(values), factor);
     };
     std::vector<output::DataArray> arrays;
     for (const std::string& name : c.output.fields) {
         if (name == "velocity") {
             const double f = s.velocity_um_per_s;
-            arrays.push_back(output::vector_array("velocity_um_per_s", field(v.q[1], f), field(v.q[2], f),
-                                                  field(v.q[3], f)));
+            arrays.push_back(output::vector_array("velocity_um_per_s", scaled(flow.values(1), f),
+                                                  scaled(flow.values(2), f), scaled(flow.values(3), f)));
         } else if (name == "density") {
-            arrays.push_back({"density_kg_per_m3", 1, field(v.q[0], s.density)});
-        } else if (name == "viscosity" && v.nu) {
-            arrays.push_back({"viscosity_Pa_s", 1, field(v.nu, s.viscosity_pa_s)});
-        } else if (name == "force" && v.force[0]) {
+            arrays.push_back({"density_kg_per_m3", 1, scaled(flow.values(0), s.density)});
+        } else if (name == "pressure") {
+            std::vector<double> p = flow.values(0);
+            for (double& value : p) value = gamma * (value - 1) / 3 * s.pressure_pa;
+            arrays.push_back({"pressure_Pa", 1, std::move(p)});
+        } else if (name == "vorticity") {
+            arrays.push_back(vorticity(flow, s.velocity_um_per_s));
+        } else if (name == "viscosity" && view.nu) {
+            arrays.push_back({"viscosity_Pa_s", 1, field(view.nu, s.viscosity_pa_s)});
+        } else if (name == "force" && view.force[0]) {
             const double f = s.pressure_pa;
-            arrays.push_back(output::vector_array("force_density_Pa_per_um", field(v.force[0], f),
-                                                  field(v.force[1], f), field(v.force[2], f)));
+            arrays.push_back(output::vector_array("force_density_Pa_per_um", field(view.force[0], f),
+                                                  field(view.force[1], f), field(view.force[2], f)));
         }
+    }
+    return arrays;
+}
+
+/// Arrays in the order of the grid's cells, put into the order of the mesh.
+std::vector<output::DataArray> in_mesh_order(std::vector<output::DataArray> arrays,
+                                             const std::vector<std::size_t>& original) {
+    for (output::DataArray& a : arrays) {
+        const auto n = static_cast<std::size_t>(a.components);
+        std::vector<double> sorted(a.values.size());
+        for (std::size_t i = 0; i < original.size(); ++i)
+            for (std::size_t k = 0; k < n; ++k) sorted[n * original[i] + k] = a.values[n * i + k];
+        a.values = std::move(sorted);
     }
     return arrays;
 }
@@ -127,11 +160,21 @@ void RunFiles::start_series(double position) {
     }
 }
 
+void RunFiles::write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
+                          const meshing::HexMesh& mesh, double position) {
+    auto file = folder_.fluid_file(fluid_series_->next());
+    file.replace_extension(".vtu");
+    output::write_fluid(
+        file, mesh, in_mesh_order(fluid_arrays(c, scales, flow, flow.options().gamma), flow.grid().original),
+        position);
+    fluid_series_->add(position, file);
+}
+
 void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
                            const membrane::Batch* cells, double position) {
     const auto fluid_file = folder_.fluid_file(fluid_series_->next());
-    output::write_fluid(fluid_file, fluid.grid().rectilinear().axes, fluid_arrays(c, scales, fluid),
-                        position);
+    output::write_fluid(fluid_file, fluid.grid().rectilinear().axes,
+                        fluid_arrays(c, scales, fluid, fluid.options().gamma), position);
     fluid_series_->add(position, fluid_file);
     if (!cells) return;
     std::vector<meshing::SurfaceMesh> meshes;
@@ -168,7 +211,7 @@ output::Summary start_summary(const Case& c) {
     summary.backend = exchange::backend_name();
     summary.threads = exchange::threads();
     for (const ReferenceInput& r : c.references)
-        summary.references[r.observable] = {r.value, r.low, r.high, r.source};
+        if (!of_sweep(r)) summary.references[r.observable] = {r.value, r.low, r.high, r.source};
     return summary;
 }
 

@@ -16,6 +16,7 @@
 #include "apps/output/summary.hpp"
 #include "apps/run.hpp"
 #include "exchange/error.hpp"
+#include "fluid/hex_solver.hpp"
 #include "fluid/solver.hpp"
 #include "membrane/batch.hpp"
 
@@ -43,6 +44,9 @@ class RunFiles {
 
     /// Opens the series, without the frames later than `position`.
     void start_series(double position);
+    /// Writes a flow on a mesh as the next frame.
+    void write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
+                    const meshing::HexMesh& mesh, double position);
     /// Writes the fluid and the cells (if any) as the next frame.
     void write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
                      const membrane::Batch* cells, double position);

@@ -62,6 +62,9 @@ std::string Form::describe() const {
                                         : fmt::format("{} \"{}\"", many ? "words of" : "one of",
                                                       fmt::join(choices, "\", \""));
             break;
+        case Type::anything:
+            words = many ? "values" : "a value";
+            break;
         case Type::table:
             return many ? fmt::format("tables [[{}]]", members.at(0).name)
                         : fmt::format("a table [{}]", members.at(0).name);
@@ -94,11 +97,13 @@ Form choice(std::initializer_list<const char*> words) {
     return {.type = Type::choice, .choices = {words.begin(), words.end()}};
 }
 Form automatic() { return choice({"auto"}); }
+Form anything() { return {.type = Type::anything}; }
 Form table(Table members) { return {.type = Type::table, .members = {std::move(members)}}; }
 
 const Key* Table::find(std::string_view key) const {
     const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });
-    return found == keys.end() ? nullptr : &*found;
+    if (found != keys.end()) return &*found;
+    return others.empty() ? nullptr : &others.front();
 }
 
 namespace {

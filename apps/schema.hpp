@@ -13,7 +13,7 @@ namespace hemoflux::apps {
 struct Table;
 
 /// What one value is, before units and ranges.
-enum class Type { quantity, number, integer, flag, text, choice, path, table };
+enum class Type { quantity, number, integer, flag, text, choice, path, table, anything };
 
 /// One way to write a value. A key may allow several, e.g. a number or "auto".
 struct Form {
@@ -54,6 +54,7 @@ Form path();
 Form choice(std::initializer_list<const char*> words);
 Form automatic();  ///< the word "auto": chosen by the program and printed
 Form table(Table members);
+Form anything();  ///< any TOML value, checked elsewhere
 
 /// One key of a table.
 struct Key {
@@ -69,20 +70,26 @@ struct Table {
     std::string name;
     std::string meaning;
     std::vector<Key> keys;
+    std::vector<Key> others = {};  ///< at most one: what keys of any other name are
 
-    /// The key called `name`, or nullptr.
+    /// The key called `name`, else what keys of other names are, or nullptr.
     [[nodiscard]] const Key* find(std::string_view key) const;
 };
 
 /// The whole case file: its keys are title, kind and the tables.
 const Table& case_schema();
 
-/// Its tables [[cell]] and [membrane].
+/// Its tables that fill a source of their own.
 Table cell_table();
-/// Its tables [observables] and [[profile]].
 Table observables_table();
 Table profile_table();
 Table membrane_table();
+Table boundary_table();
+Table body_force_table();
+Table analytical_table();
+Table sweep_table();
+Table mesh_table();
+Table steady_table();
 
 /// The known name nearest to `word` by edit distance, "" when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);

@@ -10,7 +10,9 @@ std::string section(const Table& table, const std::string& title) {
     std::string page = fmt::format("## {}\n\n{}\n\n", title, table.meaning);
     page += "| Key | Value | Range | Default | Meaning |\n|---|---|---|---|---|\n";
     std::string inner;
-    for (const Key& key : table.keys) {
+    std::vector<Key> keys = table.keys;
+    keys.insert(keys.end(), table.others.begin(), table.others.end());
+    for (const Key& key : keys) {
         std::string values;
         std::string ranges;
         for (const Form& form : key.forms) {

@@ -103,6 +103,19 @@ std::optional<Section> Section::table(const std::string& key) const {
     return std::nullopt;
 }
 
+std::vector<std::string> Section::keys() const {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : *values_) {
+        names.emplace_back(name.str());
+    }
+    return names;
+}
+
+std::size_t Section::count(const std::string& key) const {
+    const toml::array* array = (*values_)[key].as_array();
+    return array == nullptr ? 0 : array->size();
+}
+
 std::vector<Section> Section::tables(const std::string& key) const {
     std::vector<Section> sections;
     const Form& form = known(*schema_, key).forms.front();

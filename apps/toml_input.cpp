@@ -115,7 +115,7 @@ void override_value(toml::table& values, const std::string& assignment) {
 namespace {
 
 std::string printed_key(const std::string& key) {
-    return key.find_first_of("+-") == std::string::npos ? key : fmt::format("\"{}\"", key);
+    return key.find_first_of("+-. ") == std::string::npos ? key : fmt::format("\"{}\"", key);
 }
 
 }  // namespace
@@ -154,6 +154,13 @@ void print_values(std::ostream& out, const Table& schema, const toml::table& val
         const toml::node* node = values.get(key.name);
         if (node != nullptr && !(top && is_section(*node))) {
             out << printed_key(key.name) << " = " << value_text(*node) << '\n';
+        }
+    }
+    if (!schema.others.empty()) {
+        for (const auto& [name, node] : values) {
+            if (schema.find(name.str()) == &schema.others.front()) {
+                out << printed_key(std::string(name.str())) << " = " << value_text(node) << '\n';
+            }
         }
     }
     if (!top) {

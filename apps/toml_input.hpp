@@ -54,6 +54,8 @@ class Section {
     [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;  ///< of a text: itself
     [[nodiscard]] std::optional<Section> table(const std::string& key) const;
     [[nodiscard]] std::vector<Section> tables(const std::string& key) const;  ///< of an array of tables
+    [[nodiscard]] std::vector<std::string> keys() const;                      ///< all that are given
+    [[nodiscard]] std::size_t count(const std::string& key) const;  ///< length of an array, 0 when it is none
 
   private:
     const Table* schema_;

@@ -53,9 +53,9 @@ void remove_run(const fs::path& path) {
 
 bool is_run_file(const std::string& name) {
     constexpr std::string_view fixed[] = {
-        "resolved.toml",    "summary.json",     "history.csv",   "stretch.csv", "shapes.csv", "moduli.csv",
-        "recovery.csv",     "calibration.csv",  "thickness.csv", "log.txt",     "fluid.pvd",  "cells.pvd",
-        "centreline_u.csv", "centreline_v.csv", "wall.csv",      "fields.vtr",  "fields.vtu"};
+        "resolved.toml", "summary.json",     "history.csv",      "stretch.csv",   "shapes.csv", "moduli.csv",
+        "recovery.csv",  "errors.csv",       "calibration.csv",  "thickness.csv", "log.txt",    "fluid.pvd",
+        "cells.pvd",     "centreline_u.csv", "centreline_v.csv", "wall.csv",      "fields.vtr", "fields.vtu"};
     if (std::find(std::begin(fixed), std::end(fixed), name) != std::end(fixed)) return true;
     if (name.starts_with('.') && name.ends_with(".tmp")) return true;
 
@@ -66,8 +66,9 @@ bool is_run_file(const std::string& name) {
                                       name.begin() + static_cast<std::ptrdiff_t>(dot),
                                       [](char c) { return c >= '0' && c <= '9'; });
     if (numbered && kind == "checkpoint") return end == ".bin";
+    if (name.starts_with("profile_")) return end == ".csv";
     if (numbered && (kind == "fluid" || kind == "cells" || kind == "last_good"))
-        return end == ".vtr" || end == ".vtp";
+        return end == ".vtr" || end == ".vtu" || end == ".vtp";
     return (name.starts_with("picture_") || name.starts_with("plot_")) && (end == ".png" || end == ".svg");
 }
 

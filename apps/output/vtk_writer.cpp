@@ -11,10 +11,13 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkRectilinearGrid.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "apps/output/atomic_file.hpp"
@@ -93,6 +96,23 @@ void write_fluid(const std::filesystem::path& path, const std::array<meshing::Ax
     grid->SetZCoordinates(to_vtk("z_um", 1, axes[2].faces));
     add_arrays(grid->GetCellData(), cell_data, axes[0].cells() * axes[1].cells() * axes[2].cells());
     write<vtkXMLRectilinearGridWriter>(path, grid.Get(), time);
+}
+
+void write_fluid(const std::filesystem::path& path, const meshing::HexMesh& mesh,
+                 const std::vector<DataArray>& cell_data, double time) {
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    for (const Vec3d& node : mesh.nodes) points->InsertNextPoint(node.x, node.y, node.z);
+    vtkNew<vtkUnstructuredGrid> grid;
+    grid->SetPoints(points);
+    grid->Allocate(static_cast<vtkIdType>(mesh.cells.size()));
+    for (const auto& cell : mesh.cells) {
+        vtkIdType nodes[8];
+        std::copy(cell.begin(), cell.end(), nodes);
+        grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes);
+    }
+    add_arrays(grid->GetCellData(), cell_data, mesh.cells.size());
+    write<vtkXMLUnstructuredGridWriter>(path, grid.Get(), time);
 }
 
 void write_cells(const std::filesystem::path& path, const std::vector<meshing::SurfaceMesh>& cells,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "meshing/hex_mesh.hpp"
 #include "meshing/rectilinear.hpp"
 #include "meshing/surface_mesh.hpp"
 
@@ -26,6 +27,10 @@ DataArray vector_array(std::string name, const std::vector<double>& x, const std
 /// cells. time is stored as the field TimeValue. Atomic, compressed, double precision. FileError when it
 /// cannot be written.
 void write_fluid(const std::filesystem::path& path, const std::array<meshing::Axis, 3>& axes,
+                 const std::vector<DataArray>& cell_data, double time);
+
+/// Writes cell data on a mesh of hexahedra (.vtu), in the order of its cells. Otherwise as above.
+void write_fluid(const std::filesystem::path& path, const meshing::HexMesh& mesh,
                  const std::vector<DataArray>& cell_data, double time);
 
 /// Writes the surfaces of any number of cells into one .vtp: vertices of cell 0, then of cell 1, ...;

@@ -55,8 +55,9 @@ TEST(Case, ShippedCasesAreValidAndKnowTheirReference) {
     for (const auto& entry : std::filesystem::directory_iterator(HEMOFLUX_CASES)) {
         if (entry.path().extension() == ".toml") {
             SCOPED_TRACE(entry.path());
-            const Case c = read_case(entry.path());
+            Case c = read_case(entry.path());
             EXPECT_FALSE(c.references.empty());
+            c.sweep.reset();  // what is resolved is one run
             EXPECT_EQ(c, parse_case(c.resolved));
             ++count;
         }
