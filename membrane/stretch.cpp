@@ -61,15 +61,15 @@ PulledVertices pulled_vertices(const std::vector<Vec3d>& rest, const Grip& grip)
     if (grip.contact_diameter > 0) {
         pulled = {.left = touched(rest, -1, grip.contact_diameter / 2),
                   .right = touched(rest, 1, grip.contact_diameter / 2)};
+        for (const int v : pulled.left)
+            if (std::binary_search(pulled.right.begin(), pulled.right.end(), v))
+                throw InputError(
+                    fmt::format("{} and {} pulled vertices", pulled.left.size(), pulled.right.size()),
+                    fmt::format("both ends hold vertex {}", v), "Let the beads hold less of the cell");
     } else {
         const long count = std::max(1L, std::lround(grip.fraction * static_cast<double>(rest.size())));
         pulled = {.left = outermost(rest, -1, count), .right = outermost(rest, 1, count)};
     }
-    for (const int v : pulled.left)
-        if (std::binary_search(pulled.right.begin(), pulled.right.end(), v))
-            throw InputError(
-                fmt::format("{} and {} pulled vertices", pulled.left.size(), pulled.right.size()),
-                fmt::format("both ends hold vertex {}", v), "Let the beads hold less of the cell");
     return pulled;
 }
 
@@ -102,7 +102,7 @@ std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& force
             throw InputError(fmt::format("a stretching force of {} pN", f),
                              "it must be finite and not negative", "Correct the list of forces");
     relax(batch, options);
-    const double area = batch.sums(0).area, volume = batch.sums(0).volume;
+    const ShapeMoments rest = shape_moments(batch.topology().triangles(), batch.positions(0));
     const PulledVertices pulled = pulled_vertices(batch.positions(0), grip);
     std::vector<StretchPoint> points;
     for (const double force : forces_pN) {
@@ -112,7 +112,7 @@ std::vector<StretchPoint> stretch(Batch& batch, const std::vector<double>& force
         } catch (const NumericalError& error) {
             throw at_force(error, force);
         }
-        StretchPoint point = stretch_point(batch, force, area, volume);
+        StretchPoint point = stretch_point(batch, force, rest.area, rest.volume);
         point.iterations = result.iterations;
         points.push_back(point);
         if (done) done(point);
