@@ -41,7 +41,7 @@ std::string usage_error(const CLI::App& program, const CLI::Error& error,
         command = next;
         path += " " + word;
     }
-    if (!command->get_subcommands({}).empty() && command->get_subcommands().empty()) {
+    if (command->get_require_subcommand_min() > 0 && command->get_subcommands().empty()) {
         what = "no command is given";
         why = fmt::format("{} needs one of {}", path, subcommands(*command));
     }
