@@ -182,9 +182,10 @@ TEST_F(Run, CoupledFailureKeepsTheLastGoodState) {
 
 TEST_F(Run, FluidFailureKeepsTheLastGoodState) {
     write("case.toml", poiseuille);
-    // forward Euler a little above its limit: the ripple grows slowly, over many rows of the history
+    // forward Euler a little above the limit of ripples across the channel, the only ones that such a smooth start holds:
+    // they grow slowly, over many rows of the history
     const Outcome outcome =
-        run("run case.toml --quiet -o out --set time.scheme=euler --set time.step='140 ns'");
+        run("run case.toml --quiet -o out --set time.scheme=euler --set time.step='400 ns'");
     EXPECT_EQ(outcome.code, 3) << outcome.text;
     EXPECT_TRUE(outcome.text.starts_with("error: fluid cell ")) << outcome.text;
     const output::Checkpoint good = last("out").checkpoint;
