@@ -139,8 +139,8 @@ void HexSolver::runge_kutta(double dt, const double* local_dt, double advance) {
 }
 
 double HexSolver::largest_step(double speed) const {
-    return stable_step(grid_, largest_delta(options_), idle_faces(grid_, boundary_.patches()), options_.scheme,
-                       options_.nu, speed, options_.gamma);
+    return stable_step(grid_, largest_delta(options_), idle_faces(grid_, boundary_.patches()),
+                       options_.scheme, options_.nu, speed, options_.gamma);
 }
 
 void HexSolver::set_local_steps(double sigma, double c) {
