@@ -230,7 +230,7 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("membrane.rest_length", r.edge_lengths);
     checkpoint.put("membrane.rest_area", r.triangle_areas);
     checkpoint.put("membrane.rest", {r.area, r.volume, r.curvature, r.total_curvature, r.stretch_ratio});
-    const coupling::LoopMemory memory = loop->memory();
+    const coupling::CellMemory memory = loop->memory();
     checkpoint.put("loop.viscosity_x", memory.viscosity_nodes[0]);
     checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
     checkpoint.put("loop.viscosity_z", memory.viscosity_nodes[2]);
@@ -243,7 +243,7 @@ void CoupledSystem::load(const output::Checkpoint& checkpoint) {
     for (int q = 0; q < 4; ++q)
         fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
     load_positions(*cells, checkpoint);
-    coupling::LoopMemory memory;
+    coupling::CellMemory memory;
     memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
                               checkpoint.array("loop.viscosity_z")};
     const auto& target = checkpoint.array("loop.target", 3);

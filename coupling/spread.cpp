@@ -73,13 +73,16 @@ struct GatherForces {
     double factor;
     double* HEMOFLUX_RESTRICT density[3];
     int* touched;
+    bool add_only;
 
     HEMOFLUX_FN void operator()(std::size_t t) const {
         const TileRange r = sorted.tiles.range(t);
         const Sources ys(grid.axis[1], sorted.tiles.count_y, r.j0, r.j1);
         const Sources zs(grid.axis[2], sorted.tiles.count_z, r.k0, r.k1);
-        if (touched[t]) clear(r);
-        touched[t] = 0;
+        if (!add_only) {
+            if (touched[t]) clear(r);
+            touched[t] = 0;
+        }
         for (int c = 0; c < zs.count; ++c)
             for (int b = 0; b < ys.count; ++b) {
                 const std::size_t source = sorted.tiles.number((ys.first + b) % sorted.tiles.count_y,
@@ -163,15 +166,16 @@ std::size_t chunk_size(std::size_t markers) {
 
 }  // namespace
 
-Spreader::Spreader(const StencilSet& stencils)
+Spreader::Spreader(const StencilSet& stencils, Spreader* first)
     : stencils_(stencils),
+      first_(first),
       tiles_(stencils.grid().layout),
       chunk_(chunk_size(stencils.size())),
       chunks_(std::max<std::size_t>(1, (stencils.size() + chunk_ - 1) / chunk_)),
       order_(stencils.size()),
       start_(tiles_.count() * chunks_ + 1),
       cursor_(tiles_.count() * chunks_ + 1),
-      touched_(tiles_.count()) {
+      touched_(first ? 0 : tiles_.count()) {
     forget();
 }
 
@@ -190,7 +194,8 @@ void Spreader::spread(const double* fx, const double* fy, const double* fz, doub
                                           {fx, fy, fz},
                                           factor,
                                           {density.component[0], density.component[1], density.component[2]},
-                                          touched_.data()});
+                                          first_ ? first_->touched_.data() : touched_.data(),
+                                          first_ != nullptr});
 }
 
 }  // namespace hemoflux::coupling

@@ -15,14 +15,16 @@
 
 namespace hemoflux::coupling {
 
-/// Spreads forces of one set of markers into one force field; keeps the memory it needs between steps.
+/// Spreads forces of one set of markers into one force field, alone or after others; keeps the memory it needs between
+/// steps.
 class Spreader {
   public:
-    /// For the markers of `stencils`, which must outlive this object.
-    explicit Spreader(const StencilSet& stencils);
+    /// For the markers of `stencils`, which must outlive this object. With `first`, another spreader that must outlive
+    /// it too, it adds to what that one has spread in the same step.
+    explicit Spreader(const StencilSet& stencils, Spreader* first = nullptr);
 
     /// Sets `density` (padded vector field, interior cells; force per volume in the unit of factor * force /
-    /// um^3) to the spread of factor * (fx, fy, fz)[m] (device). Cells that no stencil reaches become zero.
+    /// um^3) to the spread of factor * (fx, fy, fz)[m] (device), or adds it. Cells that no stencil reaches become zero.
     /// Always pass the same field, and let nobody else write to it: cells untouched twice in a row are not
     /// cleared again.
     void spread(const double* fx, const double* fy, const double* fz, double factor,
@@ -32,6 +34,7 @@ class Spreader {
 
   private:
     const StencilSet& stencils_;
+    Spreader* first_;
     Tiles tiles_;
     std::size_t chunk_, chunks_;
     /// Markers ordered by tile; where each (tile, chunk) begins; counts and cursors of the sort; tiles not

@@ -119,6 +119,36 @@ TEST(Spread, AgreesWithBruteForceAndLeavesOtherCellsZero) {
         }
 }
 
+// A second set of markers adds to what the first has spread, also where the first has left its cells, and leaves
+// nothing behind.
+TEST(Spread, AddsASecondSetOfMarkers) {
+    const auto grid = test::mixed_grid();
+    const CellGrid cells(grid, {true, true, true});
+    auto points = markers(grid, 300);
+    const auto force = forces(300);
+    const test::Points f1({force.begin(), force.begin() + 100}), f2({force.begin() + 100, force.end()});
+    StencilSet s1(cells, Kernel::phi4, 100), s2(cells, Kernel::phi4, 200), all(cells, Kernel::phi4, 300);
+    Spreader lead(s1), add(s2, &lead), whole(all);
+    test::Field sum(cells.view().layout), expected(cells.view().layout);
+    for (const double shift : {0.0, 2.0, 3.5}) {
+        for (Vec3d& p : points) p.x += shift;
+        const test::Points p(points), p1({points.begin(), points.begin() + 100}),
+            p2({points.begin() + 100, points.end()}), f(force);
+        s1.update(p1[0], p1[1], p1[2]);
+        s2.update(p2[0], p2[1], p2[2]);
+        all.update(p[0], p[1], p[2]);
+        lead.spread(f1[0], f1[1], f1[2], 1.5, sum.view());
+        add.spread(f2[0], f2[1], f2[2], 1.5, sum.view());
+        whole.spread(f[0], f[1], f[2], 1.5, expected.view());
+        for (int q = 0; q < 3; ++q) {
+            const auto a = sum.component[q].to_host(), b = expected.component[q].to_host();
+            double largest = 0;
+            for (const double v : b) largest = std::max(largest, std::fabs(v));
+            for (std::size_t c = 0; c < a.size(); ++c) ASSERT_NEAR(a[c], b[c], 1e-13 * largest);
+        }
+    }
+}
+
 // sum_m F_m . (interpolation of u)_m = sum_c V_c f_c . u_c to 1e-13 of the sum of magnitudes.
 TEST(Spread, IsTheAdjointOfInterpolation) {
     for (const auto& [name, grid, periodic] : setups())

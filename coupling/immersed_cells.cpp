@@ -1,0 +1,103 @@
+#include "coupling/immersed_cells.hpp"
+
+#include <fmt/format.h>
+
+#include "exchange/error.hpp"
+#include "membrane/diagnostics.hpp"
+
+namespace hemoflux::coupling {
+namespace {
+
+/// Volume centroid of all cells together, um.
+Vec3d common_centroid(const membrane::Batch& cells) {
+    double volume = 0;
+    Vec3d first{0, 0, 0};
+    for (std::size_t c = 0; c < cells.cells(); ++c) {
+        const auto m = membrane::shape_moments(cells.topology().triangles(), cells.positions(c));
+        volume += m.volume;
+        first += m.volume * m.centroid;
+    }
+    return (1 / volume) * first;
+}
+
+/// Gives the padding nodes behind each cell's last vertex the position of its first, so that they are never
+/// lost.
+void place_padding(membrane::Batch& cells) {
+    for (auto* coordinate : {&cells.x(), &cells.y(), &cells.z()}) {
+        std::vector<double> host = coordinate->to_host();
+        for (std::size_t c = 0; c < cells.cells(); ++c)
+            for (std::size_t v = cells.vertices(); v < cells.stride(); ++v)
+                host[c * cells.stride() + v] = host[c * cells.stride()];
+        coordinate->assign(host);
+    }
+}
+
+}  // namespace
+
+ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options,
+                             double* nu)
+    : cells_(cells), options_(options), nodes_(cells.cells() * cells.stride()), nu_(nu) {
+    place_padding(cells_);
+    if (!options_.nu_inside.empty())
+        viscosity_ =
+            std::make_unique<InteriorViscosity>(grid, cells_.topology().triangles(), cells_.stride(),
+                                                options_.nu_inside, options_.nu_outside, options_.smoothing);
+    const Vec3d centroid = common_centroid(cells_);
+    target_ = {centroid.x, centroid.y, centroid.z};
+    if (options_.recentre)
+        recentring_ = std::make_unique<Recentring>(cells_.topology().triangles(), cells_.stride(),
+                                                   cells_.cells(), centroid);
+}
+
+ImmersedCells::~ImmersedCells() = default;
+
+exchange::FieldView ImmersedCells::positions() {
+    return {{cells_.x().data(), cells_.y().data(), cells_.z().data()}, nodes_};
+}
+
+exchange::FieldView ImmersedCells::forces() {
+    // Forces are written by the membrane alone; the view is shared, so it carries no const.
+    return {{const_cast<double*>(cells_.fx().data()), const_cast<double*>(cells_.fy().data()),
+             const_cast<double*>(cells_.fz().data())},
+            nodes_};
+}
+
+void ImmersedCells::compute_forces(double /*dt*/) {
+    cells_.compute_forces();
+    if (viscosity_) viscosity_->update(cells_.x().data(), cells_.y().data(), cells_.z().data(), nu_);
+}
+
+void ImmersedCells::advance(double dt, const exchange::FieldView& velocity) {
+    double *x = cells_.x().data(), *y = cells_.y().data(), *z = cells_.z().data();
+    move(nodes_, dt, velocity.component[0], velocity.component[1], velocity.component[2], x, y, z);
+    if (recentring_) shift_ += recentring_->apply(x, y, z);
+}
+
+void ImmersedCells::report_lost(std::size_t node) const {
+    throw NumericalError(
+        fmt::format("membrane node {} of cell {}", node % cells_.stride(), node / cells_.stride()),
+        "it has left the box or its position is no longer a number",
+        "enlarge the box, set coupling.recentre, or shorten numerics.step_strain");
+}
+
+CellMemory ImmersedCells::memory() const {
+    return {viscosity_ ? viscosity_->positions() : std::array<std::vector<double>, 3>{},
+            target_,
+            {shift_.x, shift_.y, shift_.z}};
+}
+
+void ImmersedCells::restore(const CellMemory& memory) {
+    target_ = memory.target;
+    shift_ = {memory.shift[0], memory.shift[1], memory.shift[2]};
+    if (options_.recentre)
+        recentring_ = std::make_unique<Recentring>(cells_.topology().triangles(), cells_.stride(),
+                                                   cells_.cells(), Vec3d{target_[0], target_[1], target_[2]});
+    if (viscosity_ && !memory.viscosity_nodes[0].empty()) {
+        const exchange::Buffer<double> x(memory.viscosity_nodes[0]), y(memory.viscosity_nodes[1]),
+            z(memory.viscosity_nodes[2]);
+        viscosity_->recompute(x.data(), y.data(), z.data(), nu_);
+    }
+    place_padding(cells_);
+}
+
+}  // namespace hemoflux::coupling

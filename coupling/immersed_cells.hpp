@@ -1,0 +1,75 @@
+/// Membrane cells as partners of the fluid: their forces, the viscosity inside them (6.45), their motion with the
+/// fluid (6.47), and the recentring of all of them together.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "coupling/cell_grid.hpp"
+#include "coupling/immersed.hpp"
+#include "coupling/motion.hpp"
+#include "coupling/viscosity.hpp"
+#include "membrane/batch.hpp"
+
+namespace hemoflux::coupling {
+
+/// What does not change during a run.
+struct CellOptions {
+    double force_factor = 1;        ///< membrane force (1e-11 N) -> lattice force
+    std::vector<double> nu_inside;  ///< one per cell, um c; empty: as outside, no viscosity field
+    double nu_outside = 0;          ///< um c
+    HalfWidth smoothing{};          ///< of the viscosity step
+    bool recentre = false;          ///< hold the volume centroid of all cells where it is at the start
+};
+
+/// What the cells' future depends on besides fluid and nodes.
+struct CellMemory {
+    std::array<std::vector<double>, 3> viscosity_nodes;  ///< nodes when the viscosity was last computed
+    std::array<double, 3> target{};                      ///< where the centroid is held
+    std::array<double, 3> shift{};                       ///< sum of all shifts so far
+    bool operator==(const CellMemory&) const = default;
+};
+
+class ImmersedCells final : public Immersed {
+  public:
+    /// `grid` and `cells` must outlive it. nu: the fluid's viscosity field (device), used where nu_inside is given.
+    /// Reads the nodes' positions for the centroid.
+    ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options, double* nu);
+    ~ImmersedCells() override;
+
+    [[nodiscard]] std::string name() const override { return "membrane"; }
+    [[nodiscard]] std::size_t nodes() const override { return nodes_; }
+    [[nodiscard]] exchange::FieldView positions() override;
+    [[nodiscard]] exchange::FieldView forces() override;
+    [[nodiscard]] std::string force_unit() const override { return "1e-11 N"; }
+    [[nodiscard]] double force_factor() const override { return options_.force_factor; }
+
+    /// Throws NumericalError when a spring is overstretched.
+    void compute_forces(double dt) override;
+    void advance(double dt, const exchange::FieldView& velocity) override;
+    [[noreturn]] void report_lost(std::size_t node) const override;
+
+    /// State for a checkpoint, and back. restore() expects the nodes to be restored already.
+    [[nodiscard]] CellMemory memory() const;
+    void restore(const CellMemory& memory);
+
+    /// Sum of all shifts that recentring has made, um.
+    [[nodiscard]] Vec3d total_shift() const { return shift_; }
+    /// How often the viscosity field has been computed.
+    [[nodiscard]] std::size_t viscosity_updates() const {
+        return viscosity_ ? viscosity_->recomputations() : 0;
+    }
+
+  private:
+    membrane::Batch& cells_;
+    CellOptions options_;
+    std::size_t nodes_;
+    double* nu_;
+    std::unique_ptr<InteriorViscosity> viscosity_;
+    std::unique_ptr<Recentring> recentring_;
+    std::array<double, 3> target_{};
+    Vec3d shift_{0, 0, 0};
+};
+
+}  // namespace hemoflux::coupling
