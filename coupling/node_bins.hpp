@@ -1,0 +1,122 @@
+/// Nodes of many membranes sorted into bins, so that those near a point are found at a cost that does not depend on
+/// their number.
+///
+/// The bins are boxes of at least `reach` along every axis, so all nodes within `reach` of a node lie in its bin or the
+/// 26 around it. Sorting is by (bin, node): the order, and with it every sum over neighbours, depends on the positions
+/// only, not on the number of threads. On periodic axes positions stay unwrapped and distances are those of the nearest
+/// image.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "coupling/cell_grid.hpp"
+#include "exchange/buffer.hpp"
+#include "exchange/macros.hpp"
+#include "exchange/vec3.hpp"
+
+namespace hemoflux::coupling {
+
+/// The box that holds the nodes: lower corner, lengths (um) and which axes are periodic.
+struct NodeBox {
+    double lower[3] = {0, 0, 0}, length[3] = {1, 1, 1};
+    bool periodic[3] = {false, false, false};
+
+    /// Vector from a to the nearest image of b; exactly opposite for b to a. image: whether that is b itself.
+    HEMOFLUX_INLINE Vec3d nearest(const Vec3d& a, const Vec3d& b, bool* itself) const {
+        double d[3] = {b.x - a.x, b.y - a.y, b.z - a.z};
+        *itself = true;
+        for (int q = 0; q < 3; ++q) {
+            if (!periodic[q]) continue;
+            const double turns = std::nearbyint(d[q] / length[q]);
+            if (turns == 0) continue;
+            d[q] -= turns * length[q];
+            *itself = false;
+        }
+        return {d[0], d[1], d[2]};
+    }
+};
+
+/// The box of a fluid grid.
+NodeBox node_box(const CellGridView& grid);
+
+/// Bins as kernels see them. Sorted node s is node `node[s]` of cell `cell[s]` at (x, y, z)[s].
+struct NodeBinsView {
+    NodeBox box;
+    int n[3];
+    const int* start;
+    const int *node, *cell;
+    const double *x, *y, *z;
+
+    HEMOFLUX_INLINE int along(int axis, double X) const {
+        double t = (X - box.lower[axis]) / box.length[axis];
+        if (box.periodic[axis]) t -= std::floor(t);
+        const int b = static_cast<int>(t * n[axis]);
+        return !(t > 0) ? 0 : b < n[axis] ? b : n[axis] - 1;
+    }
+    HEMOFLUX_INLINE std::size_t bin(const Vec3d& r) const {
+        const int i = along(0, r.x), j = along(1, r.y), k = along(2, r.z);
+        return static_cast<std::size_t>((k * n[1] + j) * n[0] + i);
+    }
+    HEMOFLUX_INLINE Vec3d position(int s) const { return {x[s], y[s], z[s]}; }
+
+    /// Bins b - 1, b, b + 1 of one axis, each once: between walls and where there are fewer than three, fewer.
+    struct Span {
+        int bin[3], count = 0;
+        HEMOFLUX_INLINE Span(int b, int n, bool periodic) {
+            for (int o = -1; o <= 1; ++o) {
+                int c = b + o;
+                if (periodic) c = c < 0 ? c + n : c >= n ? c - n : c;
+                if (c < 0 || c >= n || (o == 1 && n < 3 && periodic)) continue;
+                if (n == 1 && o != 0) continue;
+                bin[count++] = c;
+            }
+        }
+    };
+
+    /// Calls visit(s) for every sorted node in the bins around r, in an order that depends on positions only.
+    template <class Visitor>
+    HEMOFLUX_INLINE void around(const Vec3d& r, Visitor& visit) const {
+        const Span xs(along(0, r.x), n[0], box.periodic[0]), ys(along(1, r.y), n[1], box.periodic[1]),
+            zs(along(2, r.z), n[2], box.periodic[2]);
+        for (int c = 0; c < zs.count; ++c)
+            for (int b = 0; b < ys.count; ++b) {
+                const int row = (zs.bin[c] * n[1] + ys.bin[b]) * n[0];
+                for (int a = 0; a < xs.count;) {
+                    const int first = xs.bin[a];
+                    int last = first;
+                    while (++a < xs.count && xs.bin[a] == last + 1) ++last;
+                    for (int s = start[row + first]; s < start[row + last + 1]; ++s) visit(s);
+                }
+            }
+    }
+};
+
+/// Owns the bins and sorts into them.
+class NodeBins {
+  public:
+    /// For `cells` cells of `vertices` nodes, the first of cell c at c * stride. reach in um. InputError when a periodic
+    /// axis is shorter than two reaches, as a node would then meet two images of another.
+    NodeBins(const NodeBox& box, double reach, std::size_t cells, std::size_t vertices, std::size_t stride);
+
+    /// Sorts the nodes at x, y, z (device, um).
+    void update(const double* x, const double* y, const double* z);
+
+    /// Valid until the next update, as long as this object lives.
+    [[nodiscard]] NodeBinsView view() const;
+    /// Nodes sorted: cells times vertices.
+    [[nodiscard]] std::size_t nodes() const { return node_.size(); }
+    [[nodiscard]] double reach() const { return reach_; }
+
+  private:
+    NodeBox box_;
+    double reach_;
+    std::size_t cells_, vertices_, stride_, chunk_, chunks_, bins_;
+    int n_[3];
+    /// Sorted nodes, their cells; where each (bin, chunk) begins, cursors of the sort, where each bin begins.
+    exchange::Buffer<int> node_, cell_, chunk_start_, cursor_, start_;
+    exchange::Buffer<double> x_, y_, z_;
+};
+
+}  // namespace hemoflux::coupling
