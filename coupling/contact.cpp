@@ -30,8 +30,7 @@ struct NodeContact {
     bool walls;
 
     HEMOFLUX_INLINE double area_of(int s) const {
-        return area[static_cast<std::size_t>(bins.node[s]) -
-                    static_cast<std::size_t>(bins.cell[s]) * stride];
+        return area[static_cast<std::size_t>(bins.node[s]) - static_cast<std::size_t>(bins.cell[s]) * stride];
     }
 
     struct Meet {

@@ -9,8 +9,8 @@
 ///   E_ij = A_i A_j w(r),   w(r) = Pi(r) / (2 pi r),
 ///
 /// because the sum over a plane at distance d, int_d^inf w(r) 2 pi r dr, is then int_d^inf Pi = W(d): the moduli do not
-/// depend on the mesh as long as its edges are shorter than the reach. The Morse part is shifted so that w and w' end at
-/// zero at the cut-off d_c. A node and a flat wall meet with A_i Pi(d), repulsion only.
+/// depend on the mesh as long as its edges are shorter than the reach. From d_1 + 2/beta on the Morse pressure is led to
+/// zero, by 1 - 3 s^2 + 2 s^3, which it reaches with its slope at the cut-off d_c = d_1 + 4/beta. A node and a flat wall meet with A_i Pi(d), repulsion only.
 /// Units: um, pressure 10 Pa, energy 1e-17 J.
 #pragma once
 
@@ -22,12 +22,12 @@ namespace hemoflux::coupling {
 
 /// Parameters of the forces between membranes; zero moduli switch a part off.
 struct ContactOptions {
-    double pressure = 1;            ///< P, 10 Pa
-    double range = 0.5;             ///< d_0, um
-    double adhesion = 0;            ///< D, 1e-5 J/m^2
-    double adhesion_distance = 0.5; ///< d_1, um
-    double adhesion_scale = 4;      ///< beta, 1/um
-    bool walls = true;              ///< repulsion from sides of the box that are not periodic
+    double pressure = 1;             ///< P, 10 Pa
+    double range = 0.5;              ///< d_0, um
+    double adhesion = 0;             ///< D, 1e-5 J/m^2
+    double adhesion_distance = 0.5;  ///< d_1, um
+    double adhesion_scale = 4;       ///< beta, 1/um
+    bool walls = true;               ///< repulsion from sides of the box that are not periodic
 
     /// Where the aggregation ends, um.
     [[nodiscard]] double cut_off() const { return adhesion > 0 ? adhesion_distance + 4 / adhesion_scale : 0; }
@@ -53,12 +53,7 @@ class ContactLaw {
           distance_(o.adhesion_distance),
           scale_(o.adhesion_scale),
           cut_off_(o.cut_off()),
-          reach_(o.reach()) {
-        if (adhesion_ > 0) {
-            const Slope end = per_area(morse(cut_off_), cut_off_);
-            end_ = end.value, end_slope_ = end.slope;
-        }
-    }
+          reach_(o.reach()) {}
 
     [[nodiscard]] HEMOFLUX_INLINE double reach() const { return reach_; }
 
@@ -71,8 +66,8 @@ class ContactLaw {
         }
         if (r < cut_off_) {
             const Slope w = per_area(morse(r), r);
-            p.energy += w.value - end_ - (r - cut_off_) * end_slope_;
-            p.force -= (w.slope - end_slope_) / r;
+            p.energy += w.value;
+            p.force -= w.slope / r;
         }
         return p;
     }
@@ -85,7 +80,7 @@ class ContactLaw {
         return pressure_ * range_ / 3 * s * s * s;
     }
 
-    /// Pi of both parts between flat surfaces, without the shift at the cut-off.
+    /// Pi of both parts between flat surfaces.
     HEMOFLUX_INLINE double pressure(double d) const {
         return (d < range_ ? repulsion(d).value : 0) + (d < cut_off_ ? morse(d).value : 0);
     }
@@ -100,7 +95,12 @@ class ContactLaw {
     }
     HEMOFLUX_INLINE Slope morse(double d) const {
         const double e = std::exp(scale_ * (distance_ - d));
-        return {2 * adhesion_ * scale_ * e * (e - 1), -2 * adhesion_ * scale_ * scale_ * e * (2 * e - 1)};
+        const Slope p{2 * adhesion_ * scale_ * e * (e - 1),
+                      -2 * adhesion_ * scale_ * scale_ * e * (2 * e - 1)};
+        const double s = 0.5 * scale_ * (d - distance_) - 1;
+        if (s <= 0) return p;
+        const double fade = 1 - s * s * (3 - 2 * s);
+        return {p.value * fade, p.slope * fade - 3 * scale_ * s * (1 - s) * p.value};
     }
     /// w = Pi/(2 pi r) and w'.
     HEMOFLUX_INLINE static Slope per_area(const Slope& p, double r) {
@@ -109,7 +109,6 @@ class ContactLaw {
     }
 
     double pressure_, range_, adhesion_, distance_, scale_, cut_off_, reach_;
-    double end_ = 0, end_slope_ = 0;
 };
 
 }  // namespace hemoflux::coupling

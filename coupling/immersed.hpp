@@ -37,6 +37,8 @@ class Immersed {
     /// Moves the nodes by a step of dt; velocity: the fluid's new velocity at the nodes (device, c).
     virtual void advance(double dt, const exchange::FieldView& velocity) = 0;
 
+    /// Throws NumericalError when something of its own is wrong that the loop does not see.
+    virtual void check() {}
     /// Throws the NumericalError for a node that has left the box or is not a number.
     [[noreturn]] virtual void report_lost(std::size_t node) const = 0;
 

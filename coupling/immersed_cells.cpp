@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "exchange/error.hpp"
 #include "membrane/diagnostics.hpp"
 
@@ -32,6 +34,15 @@ void place_padding(membrane::Batch& cells) {
     }
 }
 
+/// How far the check for overlap looks, over the longest edge at the start: a node on a triangle lies within 0.6 edges
+/// of a corner, and edges grow.
+constexpr double overlap_reach = 1.2;
+
+double longest_edge(const membrane::Batch& cells) {
+    const auto lengths = membrane::edge_lengths(cells.topology(), cells.positions(0));
+    return *std::max_element(lengths.begin(), lengths.end());
+}
+
 }  // namespace
 
 ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options,
@@ -42,6 +53,16 @@ ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const
         viscosity_ =
             std::make_unique<InteriorViscosity>(grid, cells_.topology().triangles(), cells_.stride(),
                                                 options_.nu_inside, options_.nu_outside, options_.smoothing);
+    const auto& triangles = cells_.topology().triangles();
+    const NodeBox box = node_box(grid.view());
+    if (options_.contact)
+        contact_ = std::make_unique<Contact>(
+            box, *options_.contact,
+            node_areas(triangles, cells_.reference().triangle_areas, cells_.vertices()), cells_.cells(),
+            cells_.stride());
+    if (options_.contact || cells_.cells() > 1)
+        overlap_ = std::make_unique<OverlapCheck>(box, overlap_reach * longest_edge(cells_), triangles,
+                                                  cells_.cells(), cells_.vertices(), cells_.stride());
     const Vec3d centroid = common_centroid(cells_);
     target_ = {centroid.x, centroid.y, centroid.z};
     if (options_.recentre)
@@ -64,6 +85,10 @@ exchange::FieldView ImmersedCells::forces() {
 
 void ImmersedCells::compute_forces(double /*dt*/) {
     cells_.compute_forces();
+    const exchange::FieldView f = forces();
+    if (contact_)
+        contact_->add_forces(cells_.x().data(), cells_.y().data(), cells_.z().data(), f.component[0],
+                             f.component[1], f.component[2]);
     if (viscosity_) viscosity_->update(cells_.x().data(), cells_.y().data(), cells_.z().data(), nu_);
 }
 
@@ -71,6 +96,20 @@ void ImmersedCells::advance(double dt, const exchange::FieldView& velocity) {
     double *x = cells_.x().data(), *y = cells_.y().data(), *z = cells_.z().data();
     move(nodes_, dt, velocity.component[0], velocity.component[1], velocity.component[2], x, y, z);
     if (recentring_) shift_ += recentring_->apply(x, y, z);
+}
+
+Gap ImmersedCells::smallest_gap() {
+    return overlap_ ? overlap_->smallest(cells_.x().data(), cells_.y().data(), cells_.z().data()) : Gap{};
+}
+
+void ImmersedCells::check() {
+    const Gap gap = smallest_gap();
+    if (gap.distance < 0)
+        throw NumericalError(
+            fmt::format("node {} of cell {} is {:.3g} um inside cell {}", gap.node, gap.cell, -gap.distance,
+                        gap.other),
+            "membranes cannot pass through each other",
+            "raise contact.pressure or contact.range, refine the grid, or shorten numerics.step_strain");
 }
 
 void ImmersedCells::report_lost(std::size_t node) const {

@@ -4,11 +4,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupling/cell_grid.hpp"
+#include "coupling/contact.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/motion.hpp"
+#include "coupling/overlap.hpp"
 #include "coupling/viscosity.hpp"
 #include "membrane/batch.hpp"
 
@@ -21,6 +24,7 @@ struct CellOptions {
     double nu_outside = 0;          ///< um c
     HalfWidth smoothing{};          ///< of the viscosity step
     bool recentre = false;          ///< hold the volume centroid of all cells where it is at the start
+    std::optional<ContactOptions> contact = {};  ///< forces between cells, and from walls
 };
 
 /// What the cells' future depends on besides fluid and nodes.
@@ -48,11 +52,18 @@ class ImmersedCells final : public Immersed {
     /// Throws NumericalError when a spring is overstretched.
     void compute_forces(double dt) override;
     void advance(double dt, const exchange::FieldView& velocity) override;
+    /// Throws NumericalError when a node is inside another cell.
+    void check() override;
     [[noreturn]] void report_lost(std::size_t node) const override;
 
     /// State for a checkpoint, and back. restore() expects the nodes to be restored already.
     [[nodiscard]] CellMemory memory() const;
     void restore(const CellMemory& memory);
+
+    /// The smallest distance between two cells now; see OverlapCheck. Infinite (1e300) for a cell alone.
+    [[nodiscard]] Gap smallest_gap();
+    /// Energy of the contacts where forces were last computed, 1e-17 J.
+    [[nodiscard]] double contact_energy() { return contact_ ? contact_->energy() : 0; }
 
     /// Sum of all shifts that recentring has made, um.
     [[nodiscard]] Vec3d total_shift() const { return shift_; }
@@ -68,6 +79,8 @@ class ImmersedCells final : public Immersed {
     double* nu_;
     std::unique_ptr<InteriorViscosity> viscosity_;
     std::unique_ptr<Recentring> recentring_;
+    std::unique_ptr<Contact> contact_;
+    std::unique_ptr<OverlapCheck> overlap_;
     std::array<double, 3> target_{};
     Vec3d shift_{0, 0, 0};
 };

@@ -41,7 +41,8 @@ Loop::Loop(fluid::Solver& fluid, membrane::Batch& cells, const LoopOptions& o) :
     double* nu =
         o.nu_inside.empty() ? nullptr : fields_.read("fluid.viscosity", Shape::scalar, "um c").component[0];
     cells_ = std::make_unique<ImmersedCells>(
-        grid_, cells, CellOptions{o.force_factor, o.nu_inside, fluid_.options().nu, o.smoothing, o.recentre},
+        grid_, cells,
+        CellOptions{o.force_factor, o.nu_inside, fluid_.options().nu, o.smoothing, o.recentre, o.contact},
         nu);
     add(*cells_);
 }
@@ -83,6 +84,7 @@ void Loop::check() {
         p->locate();
         const std::size_t lost = p->stencils.first_lost();
         if (lost < p->stencils.size()) p->immersed.report_lost(lost);
+        p->immersed.check();
     }
 }
 

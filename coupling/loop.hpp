@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "coupling/cell_grid.hpp"
@@ -27,6 +28,7 @@ struct LoopOptions {
     std::vector<double> nu_inside;  ///< one per cell, um c; empty: as outside, no viscosity field
     HalfWidth smoothing{};          ///< of the viscosity step
     bool recentre = false;          ///< hold the volume centroid of all cells where it is at the start
+    std::optional<ContactOptions> contact;  ///< forces between cells, and from walls
 };
 
 class Loop {
@@ -44,8 +46,8 @@ class Loop {
     /// One step of dt (um/c). Throws NumericalError when a spring is overstretched.
     void step(double dt);
 
-    /// Throws NumericalError that names the first node outside the box or the first fluid cell that is not
-    /// finite.
+    /// Throws NumericalError that names the first node outside the box, the first fluid cell that is not finite, or a
+    /// node inside another cell.
     void check();
 
     /// State of the membrane cells for a checkpoint, and back. restore() expects fluid and nodes to be restored
@@ -57,6 +59,8 @@ class Loop {
     [[nodiscard]] Vec3d total_shift() const { return cells_ ? cells_->total_shift() : Vec3d{0, 0, 0}; }
     /// How often the viscosity field has been computed.
     [[nodiscard]] std::size_t viscosity_updates() const { return cells_ ? cells_->viscosity_updates() : 0; }
+    /// The membrane cells; null in a loop without.
+    [[nodiscard]] ImmersedCells* cells() { return cells_.get(); }
     /// All fields that the partners exchange.
     [[nodiscard]] const exchange::FieldTable& fields() const { return fields_; }
     /// The fluid's grid as the partners see it.

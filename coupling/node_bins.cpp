@@ -91,16 +91,16 @@ NodeBins::NodeBins(const NodeBox& box, double reach, std::size_t cells, std::siz
                                   (box.length[0] * box.length[1] * box.length[2]));
     for (int q = 0; q < 3; ++q) {
         if (box.periodic[q] && box.length[q] < 2 * reach)
-            throw InputError(
-                "a periodic side " + std::string(1, "xyz"[q]) + " of " + std::to_string(box.length[q]) + " um",
-                "cells feel each other up to " + std::to_string(reach) +
-                    " um, so one would feel another twice",
-                "Enlarge the box, or shorten the reach of the contact forces");
-        n_[q] = std::max(
-            1, static_cast<int>(std::min(box.length[q] / reach, std::ceil(box.length[q] * most))));
+            throw InputError("a periodic side " + std::string(1, "xyz"[q]) + " of " +
+                                 std::to_string(box.length[q]) + " um",
+                             "cells feel each other up to " + std::to_string(reach) +
+                                 " um, so one would feel another twice",
+                             "Enlarge the box, or shorten the reach of the contact forces");
+        n_[q] =
+            std::max(1, static_cast<int>(std::min(box.length[q] / reach, std::ceil(box.length[q] * most))));
     }
-    bins_ = static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) *
-            static_cast<std::size_t>(n_[2]);
+    bins_ =
+        static_cast<std::size_t>(n_[0]) * static_cast<std::size_t>(n_[1]) * static_cast<std::size_t>(n_[2]);
     chunk_ = exchange::on_gpu ? 1 : std::max<std::size_t>(1, 16384 / vertices);
     chunk_ = std::max(chunk_, (cells + 15) / 16);
     chunks_ = (cells + chunk_ - 1) / chunk_;
@@ -121,8 +121,9 @@ NodeBinsView NodeBins::view() const {
 }
 
 void NodeBins::update(const double* x, const double* y, const double* z) {
-    const SortNodes sort{view(), cells_,         vertices_,    stride_,      chunk_,    chunks_,   bins_,    x, y, z,
-                         cursor_.data(), node_.data(), cell_.data(), x_.data(), y_.data(), z_.data()};
+    const SortNodes sort{view(),       cells_,    vertices_, stride_,  chunk_,         chunks_,
+                         bins_,        x,         y,         z,        cursor_.data(), node_.data(),
+                         cell_.data(), x_.data(), y_.data(), z_.data()};
     exchange::for_each_index(chunks_, CountNodes{sort});
     exchange::exclusive_scan(cursor_.size(), cursor_.data(), chunk_start_.data());
     exchange::for_each_index(bins_ + 1, BinStart{chunk_start_.data(), chunks_, start_.data()},

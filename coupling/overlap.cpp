@@ -93,9 +93,8 @@ struct OverlapCheck::Scratch {
     exchange::Reduction<LeastGap> reduction;
 };
 
-OverlapCheck::OverlapCheck(const NodeBox& box, double reach,
-                           const std::vector<std::array<int, 3>>& triangles, std::size_t cells,
-                           std::size_t vertices, std::size_t stride)
+OverlapCheck::OverlapCheck(const NodeBox& box, double reach, const std::vector<std::array<int, 3>>& triangles,
+                           std::size_t cells, std::size_t vertices, std::size_t stride)
     : bins_(box, reach, cells, vertices, stride), stride_(stride), scratch_(new Scratch) {
     std::vector<std::vector<int>> around(vertices);
     for (const auto& t : triangles)

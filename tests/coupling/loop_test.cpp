@@ -19,12 +19,13 @@ struct Partners {
     std::unique_ptr<Loop> loop;
     double step = 0;
 
-    explicit Partners(bool periodic, bool recentre, std::size_t count = 1) {
+    explicit Partners(bool periodic, bool recentre, std::size_t count = 1, double apart = 3.5,
+                      std::optional<ContactOptions> contact = {}) {
         static const membrane::Cell cell = membrane::make_discocyte(2);
         cells = std::make_unique<membrane::Batch>(cell.topology, cell.parameters, cell.reference, count);
         for (std::size_t c = 0; c < count; ++c) {
             std::vector<Vec3d> positions = cell.positions;
-            for (Vec3d& r : positions) r = Vec3d{r.x, r.z + 3.5 * static_cast<double>(c), -r.y};
+            for (Vec3d& r : positions) r = Vec3d{r.x, r.z + apart * static_cast<double>(c), -r.y};
             cells->set_positions(c, positions);
         }
         meshing::RectilinearGrid grid;
@@ -46,6 +47,7 @@ struct Partners {
         l.force_factor = 0.05;
         l.nu_inside.assign(count, 0.3 * nu);
         l.recentre = recentre;
+        l.contact = contact;
         loop = std::make_unique<Loop>(*fluid, *cells, l);
         step = 0.5 * h;
     }
@@ -138,6 +140,36 @@ TEST(Loop, TwoCellsAreCarriedByTheFlow) {
     const auto m = membrane::shape_moments(p.cells->topology().triangles(), p.cells->positions(1));
     const double expected = 0.004 * 3.5 * 100 * p.step;
     EXPECT_NEAR(m.centroid.x, expected, 0.1 * expected);
+}
+
+TEST(Loop, ContactPartsTwoCellsAndKeepsTheMomentum) {
+    Partners p(true, false, 2, 3.0, ContactOptions{.pressure = 5, .range = 1.2, .walls = false});
+    const double gap = p.loop->cells()->smallest_gap().distance;
+    EXPECT_LT(gap, 0.7);
+    for (int s = 0; s < 60; ++s) p.loop->step(p.step);
+    p.loop->check();
+    EXPECT_GT(p.loop->cells()->smallest_gap().distance, gap + 0.02);
+    EXPECT_GT(p.loop->cells()->contact_energy(), 0);
+    const auto v = p.fluid->state().interior(p.fluid->state().view().q[2]),
+               rho = p.fluid->state().interior(p.fluid->state().view().q[0]);
+    const auto dy = p.fluid->grid().rectilinear().axes[1].widths();
+    double momentum = 0, magnitude = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        momentum += dy[i / 16 % 18] * rho[i] * v[i];
+        magnitude += dy[i / 16 % 18] * std::abs(rho[i] * v[i]);
+    }
+    EXPECT_LT(std::abs(momentum), 1e-11 * magnitude);
+}
+
+TEST(Loop, NamesANodeInsideAnotherCell) {
+    Partners p(false, false, 2, 2.2);
+    try {
+        p.loop->check();
+        FAIL();
+    } catch (const NumericalError& e) {
+        EXPECT_NE(std::string(e.what()).find("inside cell"), std::string::npos) << e.what();
+    }
+    EXPECT_LT(p.loop->cells()->smallest_gap().distance, 0);
 }
 
 TEST(Loop, NamesALostNodeAndABadCell) {
