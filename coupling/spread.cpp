@@ -159,6 +159,27 @@ struct GatherForces {
     }
 };
 
+/// Adds dt f / rho to the velocity in the rows of one tile.
+struct AccelerateTile {
+    CellGridView grid;
+    Tiles tiles;
+    const int* touched;
+    double dt;
+    const double* force[3];
+    const double* rho;
+    double* velocity[3];
+    HEMOFLUX_FN void operator()(std::size_t t) const {
+        if (!touched[t]) return;
+        const TileRange r = tiles.range(t);
+        for (int k = r.k0; k < r.k1; ++k)
+            for (int j = r.j0; j < r.j1; ++j) {
+                const std::size_t row = grid.layout.at(0, j, k), n = grid.layout.n[0];
+                for (int q = 0; q < 3; ++q)
+                    for (std::size_t i = row; i < row + n; ++i) velocity[q][i] += dt * force[q][i] / rho[i];
+            }
+    }
+};
+
 /// Markers of one chunk of the sort, a function of their number alone.
 std::size_t chunk_size(std::size_t markers) {
     return exchange::on_gpu ? std::max<std::size_t>(64, markers / 256) : 4096;
@@ -180,6 +201,18 @@ Spreader::Spreader(const StencilSet& stencils, Spreader* first)
 }
 
 void Spreader::forget() { touched_.fill(1); }
+
+void Spreader::accelerate(double dt, const exchange::FieldView& density,
+                          const fluid::StateView& fluid) const {
+    exchange::for_each_index(
+        tiles_.count(), AccelerateTile{stencils_.grid(),
+                                       tiles_,
+                                       first_ ? first_->touched_.data() : touched_.data(),
+                                       dt,
+                                       {density.component[0], density.component[1], density.component[2]},
+                                       fluid.q[0],
+                                       {fluid.q[1], fluid.q[2], fluid.q[3]}});
+}
 
 void Spreader::spread(const double* fx, const double* fy, const double* fz, double factor,
                       const exchange::FieldView& density) {
