@@ -18,7 +18,7 @@ exchange::FieldView view(exchange::Buffer<double> (&b)[3]) {
     return {{b[0].data(), b[1].data(), b[2].data()}, b[0].size()};
 }
 
-void check(const BodySurface& surface, const BodyOptions& o) {
+void refuse_impossible(const BodySurface& surface, const BodyOptions& o) {
     if (!(o.density_ratio >= 1))
         throw InputError(
             fmt::format("{} has {} times the fluid's density", o.name, o.density_ratio),
@@ -44,7 +44,7 @@ RigidBody::RigidBody(BodySurface surface, const CellGrid& grid, const BodyOption
       options_(options),
       state_(start),
       before_(start),
-      nodes_((check(surface_, options), surface_)),
+      nodes_((refuse_impossible(surface_, options), surface_)),
       stiffness_(options.stiffness) {
     nodes_.place(state_);
     for (int q = 0; q < 3; ++q) {
