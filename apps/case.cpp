@@ -8,6 +8,7 @@
 #include "apps/case_flow.hpp"
 #include "apps/case_membrane.hpp"
 #include "apps/case_rules.hpp"
+#include "apps/case_suspension.hpp"
 #include "apps/choice.hpp"
 #include "apps/toml_input.hpp"
 #include "exchange/error.hpp"
@@ -92,6 +93,12 @@ Case read_values(const toml::table& values) {
         c.coupling = {chosen<Kernel>(coupling->text("kernel"), {"lagrange", "phi2", "phi3", "phi4"}),
                       coupling->flag("recentre"), coupling->number("smoothing")};
     }
+    if (const auto contact = in.table("contact")) {
+        c.contact = read_contact(*contact);
+    }
+    if (const auto packing = in.table("packing")) {
+        c.packing = read_packing(*packing);
+    }
     if (const auto time = in.table("time")) {
         c.time = read_time(*time);
     }
@@ -136,6 +143,7 @@ Case finish(toml::table values, const std::string& name, const std::filesystem::
             component /= length;
         }
     }
+    complete_suspension(c, resolved["fluid"]["initial"].value_or(std::string("auto")) != "auto");
     c.resolved = "# The case with every default filled in.\n" + to_toml(case_schema(), resolved);
     return c;
 }

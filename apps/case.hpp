@@ -18,7 +18,7 @@ namespace hemoflux::apps {
 using Triple = std::array<double, 3>;
 
 enum class CaseKind { coupled, fluid, membrane };
-enum class InitialFlow { rest, shear, analytical };
+enum class InitialFlow { rest, shear, analytical, channel };
 enum class AxisKind { uniform, plateau, chebyshev, given };
 enum class VelocityCondition {
     periodic,
@@ -126,6 +126,25 @@ struct CouplingInput {
     bool recentre = false;
     double smoothing = 1;  ///< half-width of the viscosity step in local cells
     bool operator==(const CouplingInput&) const = default;
+};
+
+/// [contact]
+struct ContactInput {
+    double pressure = 0;                      ///< Pa
+    std::optional<double> range;              ///< um; empty: chosen
+    double adhesion = 0;                      ///< J/m^2
+    std::optional<double> adhesion_distance;  ///< um; empty: range
+    double adhesion_scale = 0;                ///< 1/um
+    bool walls = true;
+    bool operator==(const ContactInput&) const = default;
+};
+
+/// [packing]
+struct PackingInput {
+    double haematocrit = 0;
+    int seed = 1;
+    double gap = 0;  ///< um
+    bool operator==(const PackingInput&) const = default;
 };
 
 /// [time]; exactly one of strain and duration is given.
@@ -249,6 +268,8 @@ struct Case {
     std::optional<SweepInput> sweep;  ///< not part of `resolved`: a run is one point
     std::vector<CellInput> cells;
     CouplingInput coupling;
+    std::optional<ContactInput> contact;
+    std::optional<PackingInput> packing;  ///< `cells` then holds as many alike as fit, not placed yet
     TimeInput time;
     NumericsInput numerics;
     MembraneInput membrane;

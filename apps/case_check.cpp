@@ -51,7 +51,8 @@ std::vector<std::string> check_case(const Case& c) {
     std::vector<std::string> warnings;
     const bool flow = c.kind != CaseKind::membrane && !c.mesh;
     const meshing::RectilinearGrid grid = flow ? make_grid(c.grid) : meshing::RectilinearGrid{};
-    for (std::size_t i = 0; i < c.cells.size(); ++i) {
+    const std::size_t different = c.packing ? 1 : c.cells.size();
+    for (std::size_t i = 0; i < different; ++i) {
         meshing::SurfaceMesh surface = start_shape(c.cells[i]);
         if (!c.cells[i].reference_file.empty()) {
             CellInput reference = c.cells[i];
@@ -69,8 +70,10 @@ std::vector<std::string> check_case(const Case& c) {
         if (!flow) {
             continue;
         }
-        place(surface, c.cells[i].axis, c.cells[i].position);
-        check_inside(c, i, surface, grid);
+        if (!c.packing) {
+            place(surface, c.cells[i].axis, c.cells[i].position);
+            check_inside(c, i, surface, grid);
+        }
         const ThinnestPart thin = thinnest_part(surface, grid);
         if (thin.grid_cells < 1) {
             warnings.push_back(fmt::format(

@@ -11,6 +11,7 @@ FluidInput read_fluid(const Section& in, bool sheared) {
     const std::string initial = in.text("initial");
     if (initial == "analytical")
         return {in.number("density"), in.number("viscosity"), InitialFlow::analytical};
+    if (initial == "channel") return {in.number("density"), in.number("viscosity"), InitialFlow::channel};
     const bool shear = initial == "shear" || (initial == "auto" && sheared);
     return {in.number("density"), in.number("viscosity"), shear ? InitialFlow::shear : InitialFlow::rest};
 }

@@ -155,7 +155,7 @@ void check_time(const toml::table& values, const std::string& name) {
                time.has("strain") ? "time.strain and time.duration are both given" : "the run has no length",
                "exactly one of them says when it ends", "Keep one, e.g. strain = 25 in [time]");
     }
-    const bool sheared = values.contains("shear");
+    const bool sheared = values.contains("shear") || values["kind"].value_or(std::string()) == "coupled";
     if (time.has("strain") && !sheared) {
         refuse(name, "time.strain is given without [shear]", "strain is shear rate times time",
                "Add [shear] with a rate, or give duration = \"1 s\" instead");
@@ -171,7 +171,7 @@ void check_time(const toml::table& values, const std::string& name) {
                "Add [shear] with a rate, or give time.step instead");
     }
     const auto fluid = top.table("fluid");
-    if (fluid && fluid->text("initial") == "shear" && !sheared) {
+    if (fluid && fluid->text("initial") == "shear" && !values.contains("shear")) {
         refuse(name, "fluid.initial is \"shear\" without [shear]", "there is no shear rate",
                "Add [shear] with a rate");
     }

@@ -7,22 +7,24 @@ namespace {
 constexpr const char* positive_length = "a length is positive";
 
 Table fluid_table() {
-    return {"fluid",
-            "The suspending fluid.",
-            {{"density",
-              {quantity_in("kg/m^3").above(0, "a density is positive")},
-              "\"1000 kg/m^3\"",
-              "mass density of both fluids"},
-             {"viscosity",
-              {quantity_in("Pa s").above(0, "a viscosity is positive")},
-              "",
-              "dynamic viscosity of the suspending fluid",
-              true},
-             {"initial",
-              {choice({"auto", "rest", "shear", "analytical"})},
-              "\"auto\"",
-              "flow at the start; auto: shear where [shear] is given, else rest; analytical: as [analytical] "
-              "at t = 0"}}};
+    return {
+        "fluid",
+        "The suspending fluid.",
+        {{"density",
+          {quantity_in("kg/m^3").above(0, "a density is positive")},
+          "\"1000 kg/m^3\"",
+          "mass density of both fluids"},
+         {"viscosity",
+          {quantity_in("Pa s").above(0, "a viscosity is positive")},
+          "",
+          "dynamic viscosity of the suspending fluid",
+          true},
+         {"initial",
+          {choice({"auto", "rest", "shear", "channel", "analytical"})},
+          "\"auto\"",
+          "flow at the start; auto: shear where [shear] is given, channel where a force drives cells between "
+          "walls, else rest; channel: the steady flow of [body_force]; analytical: as [analytical] at t = "
+          "0"}}};
 }
 
 Table grid_table() {
@@ -189,6 +191,11 @@ const Table& case_schema() {
                     "half-width of the viscosity step (6.46), in local grid cells"}}})},
           "{}",
           "kind coupled"},
+         {"contact",
+          {table(contact_table())},
+          "",
+          "kind coupled; none: cells do not feel each other but through the fluid"},
+         {"packing", {table(packing_table())}, "", "kind coupled, in place of a list of cells"},
          {"time",
           {table({"time",
                   "How the run advances and how long it lasts.",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "coupling/packing.hpp"
 #include "meshing/evans_fung.hpp"
 #include "meshing/icosphere.hpp"
 #include "meshing/spheroid.hpp"
@@ -96,17 +97,8 @@ meshing::SurfaceMesh start_shape(const CellInput& cell) {
 }
 
 void place(meshing::SurfaceMesh& mesh, const Triple& axis, const Triple& position) {
-    // Rotation that takes z to the unit vector a: v -> v + k x v + k x (k x v) / (1 + a_z), k = z x a
-    // (Rodrigues).
-    const Vec3d k{-axis[1], axis[0], 0};
-    for (Vec3d& v : mesh.vertices) {
-        if (axis[2] > -1 + 1e-12) {
-            const Vec3d kv = cross(k, v);
-            v = v + kv + (1 / (1 + axis[2])) * cross(k, kv);
-        } else {
-            v = {v.x, -v.y, -v.z};  // half a turn about x
-        }
-    }
+    const coupling::AxisTurn turn{{axis[0], axis[1], axis[2]}};
+    for (Vec3d& v : mesh.vertices) v = turn(v);
     meshing::translate(mesh, {position[0], position[1], position[2]});
 }
 

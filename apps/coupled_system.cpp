@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/case_suspension.hpp"
 #include "apps/cell_builder.hpp"
 #include "apps/cell_surface.hpp"
 #include "apps/coupled_run.hpp"
+#include "coupling/overlap.hpp"
+#include "coupling/packing.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
@@ -30,6 +33,7 @@ coupling::Kernel kernel_of(Kernel kernel) {
 void check_same_kind(const std::vector<CellInput>& cells) {
     for (std::size_t i = 1; i < cells.size(); ++i) {
         CellInput same = cells[i];
+        same.name = cells[0].name;
         same.position = cells[0].position;
         same.axis = cells[0].axis;
         same.cytosol_viscosity = cells[0].cytosol_viscosity;
@@ -61,14 +65,40 @@ void check_supported(const Case& c) {
                 "Leave it out or set it to 0 in coupled runs");
 }
 
+/// Where the cells are: as listed, or packed at random.
+std::vector<coupling::Placement> places_of(const Case& c, const membrane::Cell& cell) {
+    std::vector<coupling::Placement> places;
+    if (!c.packing) {
+        for (const CellInput& one : c.cells)
+            places.push_back({{one.position[0], one.position[1], one.position[2]},
+                              {one.axis[0], one.axis[1], one.axis[2]}});
+        return places;
+    }
+    const meshing::RectilinearGrid grid = make_grid(c.grid);
+    coupling::PackingInput in;
+    for (std::size_t q = 0; q < 3; ++q) {
+        in.box.lower[q] = grid.axes[q].lower();
+        in.box.length[q] = grid.axes[q].length();
+        in.box.periodic[q] = c.periodic(q);
+    }
+    in.shape = cell.positions;
+    in.triangles = cell.topology->triangles();
+    in.cells = c.cells.size();
+    in.seed = static_cast<std::uint64_t>(c.packing->seed);
+    in.gap = c.packing->gap;
+    return coupling::pack(in);
+}
+
 std::unique_ptr<membrane::Batch> make_cells(const Case& c) {
     const membrane::Cell cell = build_cell(c.cells.front());
     auto batch =
         std::make_unique<membrane::Batch>(cell.topology, cell.parameters, cell.reference, c.cells.size());
+    const auto places = places_of(c, cell);
     for (std::size_t i = 0; i < c.cells.size(); ++i) {
-        meshing::SurfaceMesh mesh{cell.positions, cell.topology->triangles()};
-        place(mesh, c.cells[i].axis, c.cells[i].position);
-        batch->set_positions(i, mesh.vertices);
+        const coupling::AxisTurn turn{places[i].axis};
+        std::vector<Vec3d> placed;
+        for (const Vec3d& r : cell.positions) placed.push_back(turn(r) + places[i].position);
+        batch->set_positions(i, placed);
     }
     return batch;
 }
@@ -96,15 +126,11 @@ void load_positions(membrane::Batch& cells, const output::Checkpoint& checkpoint
     cells.z().assign(checkpoint.array("membrane.z", nodes));
 }
 
-/// The relaxed cells must lie inside the box and must not overlap: no two of their nodes closer than a tenth of an edge,
-/// and no centre of one inside the other's smallest half-width.
-void check_places(const Case& c, const meshing::RectilinearGrid& grid, const membrane::Batch& cells) {
-    std::vector<std::vector<Vec3d>> placed;
-    placed.reserve(cells.cells());
-    const double close = 0.5 * membrane::mean_edge(cells.topology(), cells.positions(0));
-    for (std::size_t i = 0; i < cells.cells(); ++i) {
-        const auto& one = placed.emplace_back(cells.positions(i));
-        for (const Vec3d& r : one) {
+/// The relaxed cells must lie inside the box and must not overlap.
+void check_places(const Case& c, const meshing::RectilinearGrid& grid, const membrane::Batch& cells,
+                  coupling::Loop& loop) {
+    for (std::size_t i = 0; i < cells.cells(); ++i)
+        for (const Vec3d& r : cells.positions(i)) {
             const double x[3] = {r.x, r.y, r.z};
             for (std::size_t a = 0; a < 3; ++a)
                 if (!c.periodic(a) && (x[a] < grid.axes[a].lower() || x[a] > grid.axes[a].upper()))
@@ -112,13 +138,24 @@ void check_places(const Case& c, const meshing::RectilinearGrid& grid, const mem
                                      "relaxed, it reaches through a side of the box that is not periodic",
                                      "Move it inside or enlarge the box");
         }
-        for (std::size_t k = 0; k < i; ++k)
-            for (const Vec3d& a : one)
-                for (const Vec3d& b : placed[k])
-                    if (norm(a - b) < close)
-                        throw InputError(fmt::format("[[cell]] numbers {} and {}", k, i),
-                                         "their membranes touch or cross", "Move them apart");
-    }
+    const coupling::Gap gap = loop.cells()->smallest_gap();
+    if (gap.distance < 0)
+        throw InputError(fmt::format("[[cell]] numbers {} and {}", std::min(gap.cell, gap.other),
+                                     std::max(gap.cell, gap.other)),
+                         "their membranes cross", "Move them apart");
+}
+
+coupling::ContactOptions contact_options(const Case& c, const membrane::Batch& cells, double smallest_cell) {
+    constexpr double pressure_unit = 10, energy_per_area_unit = 1e-5;  // Pa, J/m^2
+    coupling::ContactOptions o;
+    o.pressure = c.contact->pressure / pressure_unit;
+    o.range = c.contact->range.value_or(
+        std::max(membrane::mean_edge(cells.topology(), cells.positions(0)), smallest_cell));
+    o.adhesion = c.contact->adhesion / energy_per_area_unit;
+    o.adhesion_distance = c.contact->adhesion_distance.value_or(o.range);
+    o.adhesion_scale = c.contact->adhesion_scale;
+    o.walls = c.contact->walls;
+    return o;
 }
 
 std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::RectilinearGrid& grid,
@@ -137,7 +174,7 @@ std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::Rectilin
     o.tau_floor = c.numerics.tau_floor;
     o.scheme = scheme_of(c.time.scheme);
     auto solver = std::make_unique<fluid::Solver>(grid, make_patches(c, scales, n.rate), o);
-    solver->initialise(initial_flow(c, n.rate));
+    solver->initialise(initial_flow(c, n.rate, scales));
     return solver;
 }
 
@@ -148,6 +185,7 @@ std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numeric
     o.force_factor = n.force_factor;
     o.recentre = c.coupling.recentre;
     o.smoothing.local_cells = c.coupling.smoothing;
+    if (c.contact) o.contact = contact_options(c, cells, fluid.grid().rectilinear().smallest());
     if (fluid.options().with_viscosity)
         for (const CellInput& cell : c.cells)
             o.nu_inside.push_back(n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
@@ -173,7 +211,7 @@ coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& gr
     p.shear_rate = *c.shear_rate;
     p.shear_modulus = cell.shear_modulus;
     p.radius = rest_state(cell).radius();
-    p.wall_distance = shear_reach(grid);
+    p.wall_distance = flow_reach(c, grid);
     p.smallest_cell = grid.smallest();
     coupling::NumericsChoice choice;
     choice.lattice_viscosity = c.numerics.lattice_viscosity.value_or(0.5);
@@ -215,9 +253,9 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
         load_positions(*cells, *checkpoint);
     } else {
         cells = make_cells(c);
-        check_places(c, fluid->grid().rectilinear(), *cells);
     }
     loop = make_loop(c, numerics, *fluid, *cells);
+    if (!checkpoint) check_places(c, fluid->grid().rectilinear(), *cells, *loop);
 }
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {

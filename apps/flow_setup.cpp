@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/case_suspension.hpp"
 #include "apps/expression.hpp"
 #include "exchange/error.hpp"
 
@@ -172,7 +173,13 @@ fluid::HexPatches make_hex_patches(const Case& c, const Scales& scales, double r
     return patches;
 }
 
-std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate) {
+std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate, const Scales& scales) {
+    if (c.fluid.initial == InitialFlow::channel)
+        return [flow = *undisturbed_flow(c), scale = 1 / scales.velocity_um_per_s](const Vec3d& x) {
+            const double u = scale * flow.speed(x);
+            return fluid::FlowPoint{
+                1, {flow.axis() == 0 ? u : 0, flow.axis() == 1 ? u : 0, flow.axis() == 2 ? u : 0}};
+        };
     const double r = c.fluid.initial == InitialFlow::shear ? rate : 0;
     return [r](const Vec3d& x) { return fluid::FlowPoint{1, {r * x.y, 0, 0}}; };
 }

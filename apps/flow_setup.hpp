@@ -27,7 +27,7 @@ fluid::Patches make_patches(const Case& c, const Scales& scales, double rate, do
 fluid::HexPatches make_hex_patches(const Case& c, const Scales& scales, double rate, double gamma);
 
 /// Start of the flow: at rest, or u = rate y.
-std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate);
+std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate, const Scales& scales);
 
 /// Puts the case's constant and oscillating body force into the solver's options.
 void set_body_force(const Case& c, const Scales& scales, fluid::SolverOptions& options);

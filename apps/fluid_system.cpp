@@ -112,7 +112,7 @@ FluidSystem::FluidSystem(const Case& c)
       scales(fluid_scales(c, std::sqrt(3.0) * speed / mach)),
       flow(make_flow(c)),
       plan(make_plan(c, *this)) {
-    flow->initialise(initial_flow(c, c.shear_rate.value_or(0) / scales.velocity_um_per_s));
+    flow->initialise(initial_flow(c, c.shear_rate.value_or(0) / scales.velocity_um_per_s, scales));
     if (!c.analytical) return;
     errors.emplace(c, *domain.box, scales, plan);
     if (c.fluid.initial == InitialFlow::analytical)

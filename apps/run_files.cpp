@@ -112,6 +112,21 @@ void require_same_case(const std::string& stored, const std::string& now) {
                 "--set), or start anew without --restart");
 }
 
+/// Whole periods that bring the middle of a cell back into the box. Nodes are kept unwrapped; a picture shows every cell
+/// once and in one piece, which may stick out of the box.
+Vec3d into_box(const Case& c, const meshing::RectilinearGrid& grid, const std::vector<Vec3d>& nodes) {
+    Vec3d sum{0, 0, 0};
+    for (const Vec3d& r : nodes) sum += r;
+    const Vec3d middle = (1 / static_cast<double>(nodes.size())) * sum;
+    const double at[3] = {middle.x, middle.y, middle.z};
+    double shift[3] = {0, 0, 0};
+    for (std::size_t q = 0; q < 3; ++q)
+        if (c.periodic(q))
+            shift[q] =
+                -grid.axes[q].length() * std::floor((at[q] - grid.axes[q].lower()) / grid.axes[q].length());
+    return {shift[0], shift[1], shift[2]};
+}
+
 std::optional<output::LatestCheckpoint> checkpoint_to_continue(const Case& c, const RunOptions& options) {
     if (options.restart.empty()) return {};
     output::LatestCheckpoint latest = output::latest_checkpoint(options.restart);
@@ -181,6 +196,7 @@ void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Sol
     std::vector<double> fx, fy, fz;
     for (std::size_t i = 0; i < cells->cells(); ++i) {
         meshes.push_back({cells->positions(i), cells->topology().triangles()});
+        meshing::translate(meshes.back(), into_box(c, fluid.grid().rectilinear(), meshes.back().vertices));
         constexpr double piconewton_per_unit = 10;
         for (const Vec3d& f : cells->forces(i)) {
             fx.push_back(f.x * piconewton_per_unit);

@@ -90,6 +90,8 @@ Table analytical_table();
 Table sweep_table();
 Table mesh_table();
 Table steady_table();
+Table contact_table();
+Table packing_table();
 
 /// The known name nearest to `word` by edit distance, "" when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
