@@ -4,8 +4,8 @@
 
 #include "exchange/pack.hpp"
 #include "exchange/parallel.hpp"
-#include "fluid/block4.hpp"
 #include "fluid/face_jacobian.hpp"
+#include "fluid/factor_rows.hpp"
 #include "meshing/face_frame.hpp"
 
 namespace hemoflux::fluid {
@@ -54,6 +54,12 @@ HEMOFLUX_INLINE void gather_state(const double* q, std::size_t cells, const std:
     }
     for (int c = 0; c < 4; ++c) v[c] = load<Value>(lane[c]);
 }
+
+/// Blocks of fill start from zero.
+struct Clear {
+    float* block;
+    HEMOFLUX_FN void operator()(std::size_t i) const { block[i] = 0; }
+};
 
 /// Off-diagonal blocks of a pack of interior faces.
 struct InteriorBlocks {
@@ -149,69 +155,6 @@ struct Diagonal {
     }
 };
 
-/// Rows of one level.
-struct LevelKernel {
-    std::size_t begin;
-    const std::uint32_t *cell, *first, *upper, *column;
-    float *block, *diagonal;
-};
-
-struct FactorRow : LevelKernel {
-    HEMOFLUX_FN void operator()(std::size_t index) const {
-        const std::size_t row = begin + index;
-        float* own = diagonal + 16 * row;
-        for (std::uint32_t p = first[row]; p < upper[row]; ++p) {
-            const std::uint32_t k = column[p];
-            float t[16];
-            multiply(block + 16 * std::size_t{p}, diagonal + 16 * std::size_t{k}, t);
-            for (int e = 0; e < 16; ++e) block[16 * std::size_t{p} + static_cast<std::size_t>(e)] = t[e];
-            for (std::uint32_t u = upper[k]; u < first[k + 1]; ++u) {
-                if (column[u] == row) {
-                    subtract_product(t, block + 16 * std::size_t{u}, own);
-                    continue;
-                }
-                for (std::uint32_t at = first[row]; at < first[row + 1]; ++at)
-                    if (column[at] == column[u])
-                        subtract_product(t, block + 16 * std::size_t{u}, block + 16 * std::size_t{at});
-            }
-        }
-        invert(own);
-    }
-};
-
-struct ForwardRow : LevelKernel {
-    const float* r;
-    float scale[4];
-    std::size_t cells;
-    float* work;
-    HEMOFLUX_FN void operator()(std::size_t index) const {
-        const std::size_t row = begin + index;
-        float x[4];
-        for (std::size_t c = 0; c < 4; ++c) x[c] = scale[c] * r[c * cells + cell[row]];
-        for (std::uint32_t p = first[row]; p < upper[row]; ++p)
-            subtract_applied(block + 16 * std::size_t{p}, work + 4 * std::size_t{column[p]}, x);
-        for (std::size_t c = 0; c < 4; ++c) work[4 * row + c] = x[c];
-    }
-};
-
-struct BackwardRow : LevelKernel {
-    std::size_t cells;
-    float* work;
-    double* out;
-    HEMOFLUX_FN void operator()(std::size_t index) const {
-        const std::size_t row = begin + index;
-        float x[4], y[4];
-        for (std::size_t c = 0; c < 4; ++c) x[c] = work[4 * row + c], y[c] = 0;
-        for (std::uint32_t p = upper[row]; p < first[row + 1]; ++p)
-            subtract_applied(block + 16 * std::size_t{p}, work + 4 * std::size_t{column[p]}, x);
-        subtract_applied(diagonal + 16 * row, x, y);
-        for (std::size_t c = 0; c < 4; ++c) {
-            work[4 * row + c] = -y[c];
-            out[c * cells + cell[row]] = static_cast<double>(-y[c]);
-        }
-    }
-};
-
 /// Rows of a level that make waking the threads worth while.
 exchange::Cost cost(std::size_t rows) { return rows < 256 ? exchange::Cost::cheap : exchange::Cost::heavy; }
 
@@ -242,9 +185,11 @@ std::vector<double> face_data(const std::vector<CompactFace>& faces,
 
 }  // namespace
 
-CompactMatrix::CompactMatrix(const CompactModel& model, const std::vector<double>& volume)
+CompactMatrix::CompactMatrix(const CompactModel& model, const std::vector<double>& volume,
+                             std::optional<std::uint32_t> fill)
     : cells_(volume.size()), gamma_(model.gamma) {
-    const CompactPattern pattern = make_compact_pattern(cells_, model.faces);
+    const CompactPattern pattern =
+        make_compact_pattern(cells_, model.faces, fill.value_or(default_fill(cells_, model.faces)));
     level_ = pattern.level;
     cell_ = kept(pattern.cell);
     first_ = kept(pattern.first);
@@ -296,6 +241,7 @@ void CompactMatrix::set_faces(const CompactModel& model, const CompactPattern& p
 }
 
 void CompactMatrix::assemble(const double* q, const double* dt) {
+    exchange::for_each_index(block_.size(), Clear{block_.data()});
     exchange::for_each_index(
         interior_ / lanes<Pack>,
         InteriorBlocks{face_.data(), q, volume_.data(), left_.data(), right_.data(), left_right_.data(),

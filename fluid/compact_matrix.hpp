@@ -1,9 +1,11 @@
-/// The matrix A = I/dt - dR/dQ of a compact model in blocks of 4 x 4, and its incomplete block LU factors without fill:
-/// for every row i and every neighbour k < i,  A_ik <- A_ik A_kk^-1,  A_ij <- A_ij - A_ik A_kj  where A_ij exists.
+/// The matrix A = I/dt - dR/dQ of a compact model in blocks of 4 x 4, and its incomplete block LU factors:
+/// for every row i and every neighbour k < i,  A_ik <- A_ik A_kk^-1,  A_ij <- A_ij - A_ik A_kj  where A_ij has a place
+/// (see fluid/compact_pattern.hpp).
 /// Single precision: it is a preconditioner only.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "exchange/buffer.hpp"
@@ -14,8 +16,9 @@ namespace hemoflux::fluid {
 
 class CompactMatrix {
   public:
-    /// volume: of the cells.
-    CompactMatrix(const CompactModel& model, const std::vector<double>& volume);
+    /// volume: of the cells. fill: level of fill of the factors; empty: default_fill().
+    CompactMatrix(const CompactModel& model, const std::vector<double>& volume,
+                  std::optional<std::uint32_t> fill = {});
 
     /// Assembles A at the state q and factors it. q: [4][cells] conserved variables, dt: [cells], both in device memory.
     void factor(const double* q, const double* dt);

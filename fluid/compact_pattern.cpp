@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace hemoflux::fluid {
 namespace {
@@ -19,6 +20,32 @@ std::vector<std::vector<std::uint32_t>> neighbours(std::size_t cells, const std:
         l.erase(std::unique(l.begin(), l.end()), l.end());
     }
     return list;
+}
+
+/// Adds the blocks that arise when rows are eliminated in ascending order, up to the level `fill`. A symmetric pattern stays
+/// symmetric.
+void add_fill(std::vector<std::vector<std::uint32_t>>& list, std::uint32_t fill) {
+    struct Block {
+        std::uint32_t column, level;
+    };
+    std::vector<std::vector<Block>> upper(list.size());
+    std::vector<std::uint32_t> level(list.size(), CompactPattern::none);
+    for (std::uint32_t row = 0; row < list.size(); ++row) {
+        std::set<std::uint32_t> columns(list[row].begin(), list[row].end());
+        for (const std::uint32_t c : columns) level[c] = 0;
+        for (auto at = columns.begin(); at != columns.end() && *at < row; ++at)
+            for (const Block& b : upper[*at]) {
+                const std::uint32_t of_fill = level[*at] + b.level + 1;
+                if (b.column == row || of_fill > fill) continue;
+                columns.insert(b.column);
+                level[b.column] = std::min(level[b.column], of_fill);
+            }
+        list[row].assign(columns.begin(), columns.end());
+        for (const std::uint32_t c : columns) {
+            if (c > row) upper[row].push_back({c, level[c]});
+            level[c] = CompactPattern::none;
+        }
+    }
 }
 
 /// Sorts rows by level; cells of one level keep their order.
@@ -40,9 +67,18 @@ void set_levels(const std::vector<std::vector<std::uint32_t>>& list, CompactPatt
 
 }  // namespace
 
-CompactPattern make_compact_pattern(std::size_t cells, const std::vector<CompactFace>& faces) {
+std::uint32_t default_fill(std::size_t cells, const std::vector<CompactFace>& faces) {
+    const auto interior =
+        std::count_if(faces.begin(), faces.end(), [](const CompactFace& f) { return !f.border; });
+    constexpr double faces_per_cell = 2.5;  // 2 in a plane, 3 in space
+    return static_cast<double>(interior) < faces_per_cell * static_cast<double>(cells) ? 4 : 0;
+}
+
+CompactPattern make_compact_pattern(std::size_t cells, const std::vector<CompactFace>& faces,
+                                    std::uint32_t fill) {
     CompactPattern p;
-    const auto list = neighbours(cells, faces);
+    auto list = neighbours(cells, faces);
+    add_fill(list, fill);
     set_levels(list, p);
     std::vector<std::uint32_t> row(cells);
     for (std::uint32_t r = 0; r < cells; ++r) row[p.cell[r]] = r;

@@ -1,4 +1,6 @@
-/// Where the blocks of a compact Jacobian lie: one row a cell, one block for every neighbour across a face.
+/// Where the blocks of a compact Jacobian and of its incomplete factors lie: one row a cell, one block for every neighbour
+/// across a face, and blocks that elimination fills in, up to a level: a block that arises from two of levels a and b has
+/// level a + b + 1, those of the matrix have 0 (Saad 2003, section 10.3).
 ///
 /// Rows are renumbered level by level: a row's level is one more than the highest level among its neighbours of lower
 /// number. Rows of one level do not depend on each other in an incomplete factorisation or a triangular solve, so they
@@ -30,7 +32,13 @@ struct CompactPattern {
     std::vector<std::uint32_t> first_border;  ///< [row] first entry of `border`; one more for the end
 };
 
-/// Builds the pattern of `cells` cells.
-CompactPattern make_compact_pattern(std::size_t cells, const std::vector<CompactFace>& faces);
+/// Builds the pattern of `cells` cells. fill: level of the blocks that incomplete factors get beside those of the matrix.
+CompactPattern make_compact_pattern(std::size_t cells, const std::vector<CompactFace>& faces,
+                                    std::uint32_t fill = 0);
+
+/// The level of fill that pays: 4 in a plane or along a line, where a cavity of 129 x 129 cells at Re = 400, gamma = 1 takes
+/// 428 residual evaluations instead of 3967, and the factors of a channel four cells long are complete; 0 in space, where
+/// they would be many times larger than the matrix.
+std::uint32_t default_fill(std::size_t cells, const std::vector<CompactFace>& faces);
 
 }  // namespace hemoflux::fluid

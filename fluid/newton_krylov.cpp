@@ -26,7 +26,7 @@ std::vector<double> volumes(const Flow& flow) {
 NewtonKrylov::NewtonKrylov(Flow& flow, const NewtonOptions& options)
     : flow_(flow),
       options_(options),
-      matrix_(flow.compact_model(), volumes(flow)),
+      matrix_(flow.compact_model(), volumes(flow), options.fill),
       basis_(4 * flow.cells(), options.krylov),
       q_(4 * flow.cells()),
       r_(4 * flow.cells()),
@@ -48,12 +48,14 @@ std::size_t NewtonKrylov::bytes() const {
            combined_.size() * sizeof(float);
 }
 
-/// Continuity and momentum count alike at the start, the three momenta with one scale.
+/// Continuity and momentum count alike at the start, the three momenta with one scale. With c = 1 both residuals are of one
+/// kind (sound turns one into the other), so that neither is blown up where the start leaves it without residual, as a sheared
+/// layer leaves continuity: its rounding would drown the other.
 void NewtonKrylov::set_scales() {
     const ResidualNorm r = flow_.residual_norm();
     const double momentum = std::sqrt(r.momentum[0] * r.momentum[0] + r.momentum[1] * r.momentum[1] +
                                       r.momentum[2] * r.momentum[2]);
-    const double density = std::max(r.density, 1e-3 * momentum);
+    const double density = std::max(r.density, momentum);
     if (!(density > 0)) return;
     scale_[0] = 1 / density;
     for (int c = 1; c < 4; ++c) scale_[c] = 1 / std::max(momentum, 1e-3 * density);

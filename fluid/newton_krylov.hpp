@@ -13,6 +13,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "exchange/buffer.hpp"
 #include "fluid/compact_matrix.hpp"
@@ -28,6 +29,8 @@ struct NewtonOptions {
     double growth = 10;             ///< most that CFL grows by in one step
     double linear_tolerance = 0.1;  ///< reduction of the linear residual at which GMRES stops
     std::size_t krylov = 50;        ///< most Krylov iterations of one step
+    /// Level of fill of the incomplete factors; empty: chosen by CompactMatrix.
+    std::optional<std::uint32_t> fill;
 };
 
 class NewtonKrylov {

@@ -66,11 +66,9 @@ class Occupied {
             }
         return false;
     }
-    void add(const Polyline& line) {
-        for (const Point& p : line) {
-            const auto [i, j] = square(p);
-            points_[j * across_ + i].push_back(p);
-        }
+    void add(const Point& p) {
+        const auto [i, j] = square(p);
+        points_[j * across_ + i].push_back(p);
     }
 
   private:
@@ -83,10 +81,11 @@ class Occupied {
 };
 
 /// One half of a streamline from `start`, by the classical Runge-Kutta method with steps of a given length; negative
-/// steps go upstream.
-Polyline trace(const Direction& direction, const Occupied& occupied, const Point& start, double step,
-               double clear, std::size_t most, bool& closed) {
+/// steps go upstream. own: empty.
+Polyline trace(const Direction& direction, const Occupied& occupied, Occupied own, const Point& start,
+               double step, double clear, std::size_t most, bool& closed) {
     Polyline line{start};
+    const auto turn = static_cast<std::size_t>(6 * clear / std::abs(step));
     while (line.size() < most) {
         const Point at = line.back();
         const auto move = [&](const Point& along, double h) {
@@ -102,12 +101,15 @@ Polyline trace(const Direction& direction, const Occupied& occupied, const Point
         if (!direction(next) || occupied.near(next, clear)) break;
         line.push_back(next);
         // where it comes home it has been everywhere it can go, though it may miss its start by a little
-        const auto turn = static_cast<std::size_t>(6 * clear / std::abs(step));
-        if (line.size() > turn && distance(next, start) < clear / 2) {
+        if (line.size() <= turn) continue;
+        if (distance(next, start) < clear / 2) {
             line.push_back(start);
             closed = true;
             break;
         }
+        // where it comes beside what it drew a turn ago it winds up, between lattice points where div u is not zero
+        if (own.near(next, clear / 2)) break;
+        own.add(line[line.size() - 1 - turn]);
     }
     return line;
 }
@@ -150,7 +152,8 @@ std::vector<Polyline> contour(const Lattice& lattice, const std::vector<double>&
 std::vector<Polyline> streamlines(const Lattice& lattice, const std::vector<double>& u,
                                   const std::vector<double>& v, double spacing) {
     const Direction direction(lattice, u, v);
-    Occupied occupied(lattice, spacing);
+    const Occupied none(lattice, spacing);
+    Occupied occupied = none;
     const double width = lattice.x.back() - lattice.x.front(), height = lattice.y.back() - lattice.y.front();
     const double step =
         std::min(spacing / 4, std::min(lattice.x[1] - lattice.x[0], lattice.y[1] - lattice.y[0]));
@@ -165,15 +168,15 @@ std::vector<Polyline> streamlines(const Lattice& lattice, const std::vector<doub
                 lattice.y.front() + height * (static_cast<double>(j) + 0.5) / static_cast<double>(rows + 1)};
             if (!direction(seed) || occupied.near(seed, spacing)) continue;
             bool closed = false;
-            Polyline line = trace(direction, occupied, seed, step, spacing / 2, most, closed);
+            Polyline line = trace(direction, occupied, none, seed, step, spacing / 2, most, closed);
             if (!closed) {
-                Polyline back = trace(direction, occupied, seed, -step, spacing / 2, most, closed);
+                Polyline back = trace(direction, occupied, none, seed, -step, spacing / 2, most, closed);
                 std::reverse(back.begin(), back.end());
                 back.insert(back.end(), line.begin() + 1, line.end());
                 line = std::move(back);
             }
             if (static_cast<double>(line.size()) * step < spacing) continue;
-            occupied.add(line);
+            for (const Point& p : line) occupied.add(p);
             lines.push_back(std::move(line));
         }
     return lines;

@@ -154,6 +154,34 @@ TEST(CompactPattern, LevelsRespectTheOrder) {
     EXPECT_EQ(repeated, 20u);
     EXPECT_EQ(pattern.first_border.back(), pattern.border.size());
     EXPECT_EQ(pattern.border.size(), 2u * 2 * (4 + 5));
+    EXPECT_EQ(default_fill(40, model.faces), 0u);
+}
+
+// Four cells around a periodic axis, twelve along the other: nothing fills in beyond the third level, so the factors are
+// complete; all patterns are symmetric.
+TEST(CompactPattern, FillIsCompleteInANarrowChannel) {
+    meshing::RectilinearGrid grid;
+    grid.axes = {meshing::uniform_axis(0, 1, 4), meshing::uniform_axis(0, 3, 12),
+                 meshing::uniform_axis(0, 1, 1)};
+    Patches p;
+    p.fill(periodic_patch());
+    p[2] = p[3] = wall_patch();
+    SolverOptions o;
+    o.nu = 0.1;
+    const CompactModel model = Solver(grid, p, o).compact_model();
+    std::size_t blocks[6];
+    for (std::uint32_t fill = 0; fill < 6; ++fill) {
+        const CompactPattern pattern = make_compact_pattern(48, model.faces, fill);
+        blocks[fill] = pattern.column.size();
+        for (std::uint32_t r = 0; r < 48; ++r)
+            for (std::uint32_t b = pattern.first[r]; b < pattern.first[r + 1]; ++b)
+                ASSERT_EQ(pattern.column[pattern.reverse[b]], r);
+    }
+    EXPECT_EQ(blocks[0], 2u * (4 * 12 + 4 * 11));
+    EXPECT_GT(blocks[1], blocks[0]);
+    EXPECT_EQ(blocks[4], blocks[3]);
+    EXPECT_EQ(blocks[5], blocks[3]);
+    EXPECT_EQ(default_fill(48, model.faces), 4u);
 }
 
 }  // namespace hemoflux::fluid

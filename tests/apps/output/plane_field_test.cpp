@@ -64,6 +64,20 @@ TEST(PlaneField, StreamlinesOfARotationAreClosedCircles) {
     EXPECT_LE(lines.size(), 60u);
 }
 
+// A vortex whose fluid slowly gathers in its middle: no line winds up beside itself.
+TEST(PlaneField, StreamlinesDoNotWindUp) {
+    const Lattice l = make_lattice(-1, 1, -1, 1, 101);
+    const auto lines = streamlines(l, field(l, [](double x, double y) { return -y - 0.003 * x; }),
+                                   field(l, [](double x, double y) { return x - 0.003 * y; }), 0.1);
+    ASSERT_FALSE(lines.empty());
+    for (const Polyline& line : lines) {
+        double length = 0;
+        for (std::size_t i = 1; i < line.size(); ++i)
+            length += std::hypot(line[i][0] - line[i - 1][0], line[i][1] - line[i - 1][1]);
+        EXPECT_LT(length, 2.2 * 3.14159265 * std::hypot(line[0][0], line[0][1]) + 0.7);
+    }
+}
+
 TEST(PlaneField, StreamlinesAreFoundWhereTheFlowIsSlowAndNotWhereThereIsNone) {
     const Lattice l = make_lattice(0, 1, 0, 1, 101);
     const auto u = field(l, [](double x, double y) { return y < 0.3 ? 1e-9 : x > 0.7 ? NAN : 1.0; });
