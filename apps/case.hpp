@@ -18,7 +18,7 @@ namespace hemoflux::apps {
 using Triple = std::array<double, 3>;
 
 enum class CaseKind { coupled, fluid, membrane };
-enum class InitialFlow { rest, shear, analytical, channel };
+enum class InitialFlow { rest, shear, analytical, channel, uniform };
 enum class AxisKind { uniform, plateau, chebyshev, given };
 enum class VelocityCondition {
     periodic,
@@ -46,6 +46,7 @@ struct FluidInput {
     double density = 0;    ///< kg/m^3
     double viscosity = 0;  ///< Pa s
     InitialFlow initial = InitialFlow::rest;
+    Triple initial_velocity{};  ///< um/s, of InitialFlow::uniform
     bool operator==(const FluidInput&) const = default;
 };
 
@@ -203,7 +204,7 @@ struct SweepInput {
     std::vector<std::string> keys;
     std::vector<std::vector<std::string>> values;
     bool product = false;
-    std::vector<std::string> observables, order;
+    std::vector<std::string> observables, order, extrapolate;
     std::optional<std::array<double, 2>> order_range;
     bool difference = false;
     bool log_x = true, log_y = true;
@@ -249,8 +250,10 @@ struct ReferenceInput {
     bool operator==(const ReferenceInput&) const = default;
 };
 
-/// Whether a reference is of a sweep (an order of convergence, which one run does not have).
-inline bool of_sweep(const ReferenceInput& reference) { return reference.observable.starts_with("order_"); }
+/// Whether a reference is of a sweep (a limit or an order of convergence, which one run does not have).
+inline bool of_sweep(const ReferenceInput& reference) {
+    return reference.observable.starts_with("order_") || reference.observable.starts_with("limit_");
+}
 
 /// A whole case. `resolved` is its TOML text with every default filled in; reading that gives an equal case.
 struct Case {

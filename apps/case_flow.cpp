@@ -8,12 +8,22 @@
 namespace hemoflux::apps {
 
 FluidInput read_fluid(const Section& in, bool sheared) {
+    FluidInput fluid;
+    fluid.density = in.number("density");
+    fluid.viscosity = in.number("viscosity");
     const std::string initial = in.text("initial");
     if (initial == "analytical")
-        return {in.number("density"), in.number("viscosity"), InitialFlow::analytical};
-    if (initial == "channel") return {in.number("density"), in.number("viscosity"), InitialFlow::channel};
-    const bool shear = initial == "shear" || (initial == "auto" && sheared);
-    return {in.number("density"), in.number("viscosity"), shear ? InitialFlow::shear : InitialFlow::rest};
+        fluid.initial = InitialFlow::analytical;
+    else if (initial == "channel")
+        fluid.initial = InitialFlow::channel;
+    else if (initial == "shear" || (initial == "auto" && sheared))
+        fluid.initial = InitialFlow::shear;
+    else if (initial == "uniform") {
+        fluid.initial = InitialFlow::uniform;
+        const std::vector<double> velocity = in.numbers("initial_velocity");
+        std::copy(velocity.begin(), velocity.end(), fluid.initial_velocity.begin());
+    }
+    return fluid;
 }
 
 GridInput read_grid(const Section& in) {
@@ -149,6 +159,7 @@ SweepInput read_sweep(const Section& in, const toml::table& listed) {
     sweep.product = in.text("combine") == "product";
     sweep.observables = in.texts("observables");
     sweep.order = in.texts("order");
+    sweep.extrapolate = in.texts("extrapolate");
     if (const auto range = in.numbers("order_range"); !range.empty())
         sweep.order_range = {range[0], range[1]};
     sweep.difference = in.flag("difference_from_last");

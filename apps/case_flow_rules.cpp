@@ -67,6 +67,19 @@ void check_force(const Section& top, const std::string& name) {
                "Add the other");
 }
 
+/// A uniform start and its velocity belong together.
+void check_initial_velocity(const Section& top, const std::string& name) {
+    const auto fluid = top.table("fluid");
+    if (!fluid) return;
+    const bool uniform = fluid->text("initial") == "uniform";
+    if (uniform == fluid->has("initial_velocity")) return;
+    refuse(
+        name,
+        uniform ? "fluid.initial is \"uniform\" without initial_velocity" : "fluid.initial_velocity is given",
+        uniform ? "there is no velocity" : "it is of fluid.initial = \"uniform\" only",
+        uniform ? "Add initial_velocity" : "Set fluid.initial to \"uniform\", or leave it out");
+}
+
 void check_analytical(const Section& top, const std::string& name) {
     const auto exact = top.table("analytical");
     const auto fluid = top.table("fluid");
@@ -170,6 +183,7 @@ void check_flow_rules(const toml::table& resolved, const std::string& name) {
     check_patches(top, name);
     check_force(top, name);
     check_analytical(top, name);
+    check_initial_velocity(top, name);
     check_numerics(top, name);
     check_mesh(top, name);
     check_steady(top, name);

@@ -20,11 +20,15 @@ Table fluid_table() {
           "dynamic viscosity of the suspending fluid",
           true},
          {"initial",
-          {choice({"auto", "rest", "shear", "channel", "analytical"})},
+          {choice({"auto", "rest", "uniform", "shear", "channel", "analytical"})},
           "\"auto\"",
           "flow at the start; auto: shear where [shear] is given, channel where a force drives cells between "
           "walls, else rest; channel: the steady flow of [body_force]; analytical: as [analytical] at t = "
-          "0"}}};
+          "0"},
+         {"initial_velocity",
+          {quantity_in("um/s").of(3)},
+          "",
+          "of initial = \"uniform\": the same everywhere, e.g. the free stream around a body"}}};
 }
 
 Table grid_table() {

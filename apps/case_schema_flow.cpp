@@ -161,6 +161,12 @@ Table sweep_table() {
           {text().of(Form::any)},
           "[]",
           "observables for which the order of convergence in the first key is fitted (order_NAME)"},
+         {"extrapolate",
+          {text().of(Form::any)},
+          "[]",
+          "observables for which value = limit + a x^order is fitted over three runs or more, x the first "
+          "key, a "
+          "spacing or a step, or one over a number of cells (limit_NAME, order_NAME)"},
          {"order_range",
           {number().of(2)},
           "",

@@ -180,6 +180,11 @@ std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double
             return fluid::FlowPoint{
                 1, {flow.axis() == 0 ? u : 0, flow.axis() == 1 ? u : 0, flow.axis() == 2 ? u : 0}};
         };
+    if (c.fluid.initial == InitialFlow::uniform) {
+        const Triple& u = c.fluid.initial_velocity;
+        const Vec3d velocity = (1 / scales.velocity_um_per_s) * Vec3d{u[0], u[1], u[2]};
+        return [velocity](const Vec3d&) { return fluid::FlowPoint{1, velocity}; };
+    }
     const double r = c.fluid.initial == InitialFlow::shear ? rate : 0;
     return [r](const Vec3d& x) { return fluid::FlowPoint{1, {r * x.y, 0, 0}}; };
 }

@@ -26,7 +26,7 @@ fluid::Patches make_patches(const Case& c, const Scales& scales, double rate, do
 /// The same for the patches of a mesh that are not periodic.
 fluid::HexPatches make_hex_patches(const Case& c, const Scales& scales, double rate, double gamma);
 
-/// Start of the flow: at rest, or u = rate y.
+/// Start of the flow: at rest, the same velocity everywhere, that of a channel, or u = rate y.
 std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate, const Scales& scales);
 
 /// Puts the case's constant and oscillating body force into the solver's options.

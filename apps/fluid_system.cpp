@@ -44,6 +44,7 @@ double fastest(const Case& c, const FluidDomain& domain) {
                                                          std::abs(domain.bounds.upper.y)));
     if (c.analytical) speed = std::max(speed, largest_exact_speed(c, *domain.box));
     const auto length = [](const Triple& v) { return std::hypot(v[0], v[1], v[2]); };
+    speed = std::max(speed, length(c.fluid.initial_velocity));
     constexpr double per_um = 1e-6;                                      // m
     const double oscillating = length(c.body_force.amplitude) * per_um;  // Pa/um
     double drive = c.fluid.density * length(c.body_force.acceleration) * per_um, width = 1e300;

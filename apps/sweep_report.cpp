@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "apps/extrapolation.hpp"
 #include "apps/output/atomic_file.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/summary.hpp"
@@ -154,17 +155,23 @@ double fitted_order(const std::vector<double>& x, const std::vector<double>& y) 
 
 std::map<std::string, double> sweep_orders(const SweepResults& r) {
     std::map<std::string, double> orders;
-    const std::vector<Series> all = series_of(r);
-    const double sign = r.sweep.keys.front().ends_with("cells") ? -1 : 1;
-    for (const std::string& name : r.sweep.order)
-        for (const Series& s : all) {
-            const std::vector<double> x = abscissas(r, s);
-            std::vector<double> y = column(r, s, name);
-            if (const auto& range = r.sweep.order_range)
-                for (std::size_t i = 0; i < x.size(); ++i)
-                    if (x[i] < (*range)[0] || x[i] > (*range)[1]) y[i] = NAN;
-            orders["order_" + name + (s.name.empty() ? "" : " " + s.name)] = sign * fitted_order(x, y);
+    const bool counted = r.sweep.keys.front().ends_with("cells");
+    for (const Series& s : series_of(r)) {
+        const std::string behind = s.name.empty() ? "" : " " + s.name;
+        std::vector<double> x = abscissas(r, s);
+        if (const auto& range = r.sweep.order_range)
+            for (double& one : x)
+                if (one < (*range)[0] || one > (*range)[1]) one = NAN;
+        if (counted)
+            for (double& one : x) one = 1 / one;
+        for (const std::string& name : r.sweep.order)
+            orders["order_" + name + behind] = fitted_order(x, column(r, s, name));
+        for (const std::string& name : r.sweep.extrapolate) {
+            const Extrapolation fit = extrapolate(x, column(r, s, name));
+            orders["limit_" + name + behind] = fit.limit;
+            orders["order_" + name + behind] = fit.order;
         }
+    }
     return orders;
 }
 

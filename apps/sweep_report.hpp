@@ -16,7 +16,7 @@ struct SweepResults {
     std::vector<std::map<std::string, double>> rows;
 };
 
-/// Orders of convergence of the observables the case asks for, by name: order_NAME, with the values of the other keys
+/// Orders of convergence and limits of the observables the case asks for, by name: order_NAME and limit_NAME, with the values of the other keys
 /// behind it where they are combined as a product. Counted as positive when the observable falls with finer cells or
 /// shorter steps.
 std::map<std::string, double> sweep_orders(const SweepResults& results);

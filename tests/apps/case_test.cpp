@@ -97,6 +97,10 @@ TEST(Case, RulesBetweenKeys) {
     EXPECT_THROW(parse_case(example_case, "case", "/", {"time.step=1 us", "numerics.step_strain=1e-3"}),
                  InputError);
     EXPECT_THROW(parse_case(example_case, "case", "/", {"output.window_strain=[3, 2]"}), InputError);
+    EXPECT_THROW(parse_case(example_case, "case", "/", {"fluid.initial=uniform"}), InputError);
+    EXPECT_THROW(
+        parse_case(example_case, "case", "/", {"fluid.initial_velocity=[\"1 m/s\", \"0 m/s\", \"0 m/s\"]"}),
+        InputError);
 }
 
 TEST(Case, CoupledNeedsACell) {

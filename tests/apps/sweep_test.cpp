@@ -42,6 +42,7 @@ TEST(Sweep, OrderIsTheSlopeOfTheLogarithms) {
                .product = true,
                .observables = {},
                .order = {"error"},
+               .extrapolate = {},
                .order_range = {}};
     r.points = sweep_points(r.sweep);
     r.rows = {{{"error", 0.4}}, {{"error", 0.1}}, {{"error", 0.8}}, {{"error", 0.1}}};
