@@ -20,6 +20,7 @@ TEST(Sweep, ListsGoTogetherOrAsProduct) {
                      .values = {{"1", "2"}, {"3", "4"}},
                      .observables = {},
                      .order = {},
+                     .extrapolate = {},
                      .order_range = {}};
     EXPECT_EQ(sweep_points(sweep), (std::vector<SweepPoint>{{"1", "3"}, {"2", "4"}}));
     sweep.product = true;
