@@ -36,8 +36,9 @@ void bench_thesis(const BenchArguments& in) {
     exchange::set_threads(in.threads);
     const Machine machine = this_machine();
     const int n = in.quick ? quick_edge : thesis_edge;
-    fmt::print("{}\n{}", describe(machine),
+    fmt::print("{}\n{}\n", describe(machine),
                table_8_4(machine, structured_cavity(n, in.quick), unstructured_cavity(n, in.quick)));
+    fmt::print("{}", table_3_18(machine, steady_cavities(in.quick)));
 }
 
 }  // namespace

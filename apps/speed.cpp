@@ -122,8 +122,9 @@ std::vector<Timing> time_kernels(const std::vector<int>& sizes, bool quick) {
     for (const int n : sizes) {
         const auto cells =
             static_cast<std::size_t>(n) * static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
-        const auto add = [&](const char* kernel, double part, const std::function<void()>& work) {
-            timings.push_back({kernel, cells, median_seconds(work, s.samples, s.least) / part});
+        const auto add = [&](const char* kernel, double part, const fluid::Work& work,
+                             const std::function<void()>& call) {
+            timings.push_back({kernel, cells, median_seconds(call, s.samples, s.least) / part, work});
         };
         const auto flow = [&](const Vec3d& x) { return wave(x, n * width); };
         {
@@ -131,8 +132,8 @@ std::vector<Timing> time_kernels(const std::vector<int>& sizes, bool quick) {
             periodic.fill(fluid::periodic_patch());
             fluid::Solver solver(cube(n, false), periodic, options_of(0.5 * width));
             solver.initialise(flow);
-            add("residual, cubic cells", 1, residual_of(solver));
-            add("Runge-Kutta step, a stage", stages, [&] { solver.step(0.01 * width); });
+            add("residual, cubic cells", 1, fluid::cubic_work, residual_of(solver));
+            add("Runge-Kutta step, a stage", stages, {}, [&] { solver.step(0.01 * width); });
         }
         {
             fluid::Patches walls;
@@ -142,7 +143,7 @@ std::vector<Timing> time_kernels(const std::vector<int>& sizes, bool quick) {
             o.with_force = o.with_viscosity = true;
             fluid::Solver solver(cube(n, true), walls, o);
             solver.initialise(flow);
-            add("residual, stretched, viscosity and force fields", 1, residual_of(solver));
+            add("residual, stretched, viscosity and force fields", 1, fluid::full_work, residual_of(solver));
         }
         fluid::HexPatches walls;
         for (const char* name : {"x-", "x+", "y-", "z-", "z+"}) walls[name] = fluid::wall_patch();
@@ -150,7 +151,8 @@ std::vector<Timing> time_kernels(const std::vector<int>& sizes, bool quick) {
         fluid::HexSolver solver(meshing::make_hex_grid(meshing::box_mesh(cube(n, false))), walls,
                                 options_of(0.5 * width));
         solver.initialise(flow);
-        add("residual, unstructured, ghost cells and gradients", 1, [&] { solver.evaluate(); });
+        add("residual, unstructured, ghost cells and gradients", 1, fluid::unstructured_work,
+            [&] { solver.evaluate(); });
     }
     return timings;
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "fluid/roofline.hpp"
+
 namespace hemoflux::apps {
 
 /// The machine and the build.
@@ -21,6 +23,7 @@ struct Timing {
     std::string kernel;
     std::size_t cells = 0;
     double seconds = 0;  ///< of one evaluation of all cells, median
+    fluid::Work work;    ///< of one cell, counted by hand
     /// Million cells per second and thread.
     [[nodiscard]] double rate(int threads) const {
         return static_cast<double>(cells) / seconds / threads * 1e-6;
@@ -47,11 +50,24 @@ struct CavityCost {
 CavityCost structured_cavity(int n, bool quick);
 CavityCost unstructured_cavity(int n, bool quick);
 
+/// One steady cavity of Table 3.18. Seconds of whole solutions, [0] with Green-Gauss, [1] with least-squares gradients,
+/// which are one on uniform grids; NaN where the steady state was not reached.
+struct SteadyCavity {
+    int reynolds, cells;
+    bool uniform;
+    double thesis[2], ours[2];
+};
+/// Solves the cavities of Table 3.18 from rest, with the implicit method and to the tolerance of the shipped cases.
+/// quick: Re 100 alone, on coarse grids.
+std::vector<SteadyCavity> steady_cavities(bool quick);
+
 /// The machine and timings as text tables and as JSON.
 std::string describe(const Machine& machine);
 std::string table(const Machine& machine, const std::vector<Timing>& timings);
 std::string to_json(const Machine& machine, const std::vector<Timing>& timings);
 /// Table 8.4 with the thesis's columns beside ours.
 std::string table_8_4(const Machine& machine, const CavityCost& structured, const CavityCost& unstructured);
+/// Table 3.18, the same way.
+std::string table_3_18(const Machine& machine, const std::vector<SteadyCavity>& cavities);
 
 }  // namespace hemoflux::apps

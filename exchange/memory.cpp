@@ -4,8 +4,14 @@
 #include <thrust/device_ptr.h>
 #include <thrust/fill.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <cstring>
 #include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 #if defined(HEMOFLUX_BACKEND_CUDA)
 #include <thrust/device_free.h>
@@ -25,17 +31,40 @@ void release(void* device) noexcept {
 }
 #else
 namespace {
-constexpr std::size_t alignment = 64;
+constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21, large = std::size_t{1} << 16;
+
+/// Large arrays begin at different places within a page, so that the same element of several arrays does not fall into
+/// the same set of the first-level cache.
+std::size_t stagger(std::size_t bytes) {
+    static std::atomic<std::size_t> count{0};
+    constexpr std::size_t step = 9, places = 64;
+    return bytes < large ? 0 : step * count.fetch_add(1, std::memory_order_relaxed) % places * line;
 }
+}  // namespace
 
 void* allocate(std::size_t bytes) {
     if (bytes == 0) return nullptr;
-    void* p = ::operator new(bytes, std::align_val_t(alignment));
+    const std::size_t offset = line + stagger(bytes);
+    const std::size_t alignment = bytes < huge_page ? line : huge_page;
+    const std::size_t whole = (bytes + offset + alignment - 1) / alignment * alignment;
+    void* base = std::aligned_alloc(alignment, whole);
+    if (!base) throw std::bad_alloc();
+#if defined(MADV_HUGEPAGE)
+    // Advice only: without it unstructured sweeps miss the translation buffer at every other record.
+    if (alignment == huge_page) madvise(base, whole, MADV_HUGEPAGE);
+#endif
+    char* p = static_cast<char*>(base) + offset;
+    std::memcpy(p - sizeof base, &base, sizeof base);  // for release()
     // The first touch decides where a page lives, so the threads that will use it touch it.
-    thrust::fill_n(thrust::device_ptr<char>(static_cast<char*>(p)), bytes, char(0));
+    thrust::fill_n(thrust::device_ptr<char>(p), bytes, char(0));
     return p;
 }
-void release(void* device) noexcept { ::operator delete(device, std::align_val_t(alignment)); }
+void release(void* device) noexcept {
+    if (!device) return;
+    void* base = nullptr;
+    std::memcpy(&base, static_cast<char*>(device) - sizeof base, sizeof base);
+    std::free(base);
+}
 #endif
 
 void copy_to_host(void* host, const void* device, std::size_t bytes) {

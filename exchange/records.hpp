@@ -30,6 +30,10 @@ HEMOFLUX_INLINE Four operator*(double s, Four a) {
     for (double& value : a.c) value *= s;
     return a;
 }
+HEMOFLUX_INLINE Four operator*(Four a, const Four& b) {
+    for (int i = 0; i < 4; ++i) a.c[i] *= b.c[i];
+    return a;
+}
 HEMOFLUX_INLINE Four load_four(const double* p) {
     Four a;
     for (int i = 0; i < 4; ++i) a.c[i] = p[i];

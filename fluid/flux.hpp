@@ -18,9 +18,8 @@
 /// +-1, hold V = a - s1 d1 - s2 d2, and because s1^2 = s2^2 = 1 everything about them is of the form
 /// x0 + s1 x1 + s2 x2 + s1 s2 x12; the sums over the nodes of f, s1 f and s2 f are 4 x0, 4 x1 and 4 x2 of the
 /// product rho * [...]. Likewise the two nodes on a tangent, m ahead and behind the face's centre, have an
-/// even and an odd part: about half the operations (tests/bench/roofline.hpp counts them). All sums are kept times 18,
-/// which makes their weights whole numbers; and f/w - 1 is summed instead of f/w, which lets single precision store
-/// rho - 1.
+/// even and an odd part: about half the operations (fluid/roofline.hpp counts them). All sums are kept times 6,
+/// where most weights become one; and f/w - 1 is summed instead of f/w, which lets single precision store rho - 1.
 #pragma once
 
 #include "exchange/pack.hpp"
@@ -40,8 +39,8 @@ struct FaceSide {
     Value phi[4], n[4], t1[4], t2[4];
 };
 
-/// Lengths at a face. half: cell centre to face; weight: distance weight of the left cell (right: 1 -
-/// weight); delta: streaming distance, and its reciprocal.
+/// Lengths at a face. half: cell centre to face; weight: distance weight of the left cell, half_right / (half_left +
+/// half_right); delta: streaming distance, and its reciprocal.
 template <class Value>
 struct FaceGeometry {
     Value half_left, half_right, weight_left, delta, inv_delta;
@@ -83,8 +82,8 @@ HEMOFLUX_INLINE Value density(const Value& stored) {
         return stored;
 }
 
-/// Sum and first tangential moments (times 18) of the nodes that stream in from one side. The sum lacks the
-/// part of a unit density at rest, 3.
+/// Sum and first tangential moments (times 6) of the nodes that stream in from one side. In single precision the sum
+/// lacks the part of a unit density at rest, 1.
 template <class Value>
 struct SideSums {
     Value all, t1, t2;
@@ -102,41 +101,44 @@ HEMOFLUX_INLINE SideSums<Value> side_sums(const SideNodes<Value>& s, const SideP
     const Value e1 = Sign > 0 ? s.a[2] - s.d1[1] : s.a[2] + s.d1[1];
     const Value e2 = Sign > 0 ? s.a[3] - s.d2[1] : s.a[3] + s.d2[1];
     const Value squares = (e0 * e0 + e1 * e1) + (e2 * e2 + e12 * e12);
-    // [...] = 1 + b0 + 3 (s1 b1 + s2 b2 + s1 s2 b12)
-    const Value b0 = R(3) * e0 + (R(4.5) * ig) * squares - R(1.5) * (p.aa + p.dd);
+    // [...] / 3 = 1/3 + b0 + s1 b1 + s2 b2 + s1 s2 b12
+    const Value b0 = e0 + (R(1.5) * ig) * squares - R(0.5) * (p.aa + p.dd);
     const Value g = R(1) + (R(3) * ig) * e0, e12_3 = (R(3) * ig) * e12;
     const Value b1 = e1 * g - e12_3 * e2 + p.a1;
     const Value b2 = e2 * g - e12_3 * e1 + p.a2;
     const Value b12 = (R(3) * ig) * (e1 * e2) - e12 * g - p.d12;
-    // the axis node's bracket: 1 + axis / 2
+    // the axis node's bracket: 1 + 3/2 axis
     const Value along = Sign > 0 ? s.a[1] : -s.a[1];
-    const Value axis = along * (R(6) + (R(9) * ig) * along) - R(3) * p.aa;
-    const Value rho = density(s.a[0]), rho_3 = R(3) * rho, r1_3 = R(3) * s.d1[0], r2_3 = R(3) * s.d2[0];
-    const Value bracket = R(1) + b0;
-    return {(rho * (b0 + axis) + R(3) * s.a[0]) - (r1_3 * b1 + r2_3 * b2),
-            rho_3 * b1 - s.d1[0] * bracket - r2_3 * b12, rho_3 * b2 - s.d2[0] * bracket - r1_3 * b12};
+    const Value axis = along * (R(2) + (R(3) * ig) * along) - p.aa;
+    const Value rho = density(s.a[0]);
+    const Value bracket = R(1.0 / 3) + b0;
+    return {(rho * (b0 + axis) + s.a[0]) - (s.d1[0] * b1 + s.d2[0] * b2),
+            rho * b1 - s.d1[0] * bracket - s.d2[0] * b12, rho * b2 - s.d2[0] * bracket - s.d1[0] * b12};
 }
 
-/// Nodes in the plane of the face: at rest, and one step along +-t1 and +-t2. The sum lacks the part of a
-/// unit density at rest, 12.
+/// Nodes in the plane of the face: at rest, and one step along +-t1 and +-t2. In single precision the sum
+/// lacks the part of a unit density at rest, 4.
 template <bool Preconditioned, class Value>
 HEMOFLUX_INLINE SideSums<Value> plane_sums(const PlaneNodes<Value>& p, double inverse_gamma) {
     using R = exchange::Scalar<Value>;
     const R ig = Preconditioned ? R(inverse_gamma) : R(1);
-    // twice the brackets, for s = +-1 along the tangent: 2 + even + s odd
-    const Value rest = (R(-0.75) * ig) * dot(p.c, p.c);
-    const auto even = [&](const Value(&m)[4], int t) {
-        return (rest - (R(0.75) * ig) * dot(m, m)) +
-               ((R(2.25) * ig) * (p.c[t] * p.c[t]) + m[t] * ((R(2.25) * ig) * m[t] - R(3)));
+    // two thirds of the brackets, for s = +-1 along the tangent: 2/3 + even + s odd
+    const Value nn = p.c[1] * p.c[1], tt[2] = {p.c[2] * p.c[2], p.c[3] * p.c[3]};
+    const auto even = [&](const Value(&m)[4], int t, int other) {
+        const Value along = tt[t - 2] + m[t] * m[t];
+        const Value across = ((nn + tt[other - 2]) + m[1] * m[1]) + m[other] * m[other];
+        return ((R(0.5) * ig) * along - m[t]) - (R(0.25) * ig) * across;
     };
-    const auto odd = [&](const Value(&m)[4], int t) {
-        return p.c[t] * (R(3) - (R(4.5) * ig) * m[t]) + (R(1.5) * ig) * dot(p.c, m);
+    const auto odd = [&](const Value(&m)[4], int t, int other) {
+        return (p.c[t] - (ig * m[t]) * p.c[t]) + (R(0.5) * ig) * (p.c[1] * m[1] + p.c[other] * m[other]);
     };
-    const Value even1 = even(p.m1, 2), odd1 = odd(p.m1, 2), even2 = even(p.m2, 3), odd2 = odd(p.m2, 3);
+    const Value even1 = even(p.m1, 2, 3), odd1 = odd(p.m1, 2, 3);
+    const Value even2 = even(p.m2, 3, 2), odd2 = odd(p.m2, 3, 2);
+    const Value rest = (R(-0.25) * ig) * (nn + (tt[0] + tt[1]));
     Value rho = p.c[0];
     if constexpr (exchange::is_single<Value>) rho = rho + R(2);
-    return {(rho * (even1 + even2 + rest) + R(6) * p.c[0]) - (p.m1[0] * odd1 + p.m2[0] * odd2),
-            rho * odd1 - p.m1[0] * (R(2) + even1), rho * odd2 - p.m2[0] * (R(2) + even2)};
+    return {(rho * ((even1 + even2) + rest) + (p.c[0] + p.c[0])) - (p.m1[0] * odd1 + p.m2[0] * odd2),
+            rho * odd1 - p.m1[0] * (R(2.0 / 3) + even1), rho * odd2 - p.m2[0] * (R(2.0 / 3) + even2)};
 }
 
 }  // namespace detail
@@ -153,25 +155,25 @@ HEMOFLUX_INLINE Quad<Value> flux_of_nodes(const SideNodes<Value>& left, const Si
     const auto l = detail::side_sums<1, Preconditioned>(left, of_left, inv_gamma);
     const auto r = detail::side_sums<-1, Preconditioned>(right, of_right, inv_gamma);
     const auto p = detail::plane_sums<Preconditioned>(plane, inv_gamma);
-    constexpr R eighteenth = R(1) / R(18);
+    constexpr R sixth = R(1) / R(6);
 
     const Value pre_nn = l.all + r.all, pre_nt1 = l.t1 - r.t1, pre_nt2 = l.t2 - r.t2;
-    const Value excess = pre_nn + p.all;  // 18 (rho - 1), or 18 rho
+    const Value excess = pre_nn + p.all;  // 6 (rho - 1), or 6 rho
     const Value mn = l.all - r.all, mt1 = l.t1 + r.t1 + p.t1, mt2 = l.t2 + r.t2 + p.t2;
     Value rho = excess;
-    if constexpr (exchange::is_single<Value>) rho = rho + R(18);
+    if constexpr (exchange::is_single<Value>) rho = rho + R(6);
     const Value inv_rho = (Preconditioned ? R(inv_gamma) : R(1)) / rho;
     const Value carry = mn * inv_rho;
     const Value eq_nn = R(1.0 / 3) * excess + carry * mn, eq_nt1 = carry * mt1, eq_nt2 = carry * mt2;
-    const Value of_pre = eighteenth * relax, of_eq = eighteenth - of_pre;
-    Quad<Value> flux{{eighteenth * mn, of_eq * eq_nn + of_pre * pre_nn, of_eq * eq_nt1 + of_pre * pre_nt1,
+    const Value of_pre = sixth * relax, of_eq = sixth - of_pre;
+    Quad<Value> flux{{sixth * mn, of_eq * eq_nn + of_pre * pre_nn, of_eq * eq_nt1 + of_pre * pre_nt1,
                       of_eq * eq_nt2 + of_pre * pre_nt2}};
     if constexpr (Force) {
         // The impulse changes what is convected, not the viscous stress: Pi_pre knows nothing of it.
-        const Value new_n = flux.c[0] + impulse[0], new_carry = R(18) * new_n * inv_rho;
+        const Value new_n = flux.c[0] + impulse[0], new_carry = R(6) * new_n * inv_rho;
         flux.c[1] = flux.c[1] + (new_carry * new_n - carry * flux.c[0]);
-        flux.c[2] = flux.c[2] + ((new_carry - carry) * (eighteenth * mt1) + new_carry * impulse[1]);
-        flux.c[3] = flux.c[3] + ((new_carry - carry) * (eighteenth * mt2) + new_carry * impulse[2]);
+        flux.c[2] = flux.c[2] + ((new_carry - carry) * (sixth * mt1) + new_carry * impulse[1]);
+        flux.c[3] = flux.c[3] + ((new_carry - carry) * (sixth * mt2) + new_carry * impulse[2]);
         flux.c[0] = new_n;
     }
     return flux;
@@ -201,7 +203,8 @@ HEMOFLUX_INLINE Quad<Value> face_flux(const FaceSide<Value>& left, const FaceSid
                                       const Value (&force)[3], double inv_gamma) {
     using R = exchange::Scalar<Value>;
     const Value reach_left = face.half_left - face.delta, reach_right = face.delta - face.half_right;
-    const Value twice_left = R(2) * face.weight_left, twice_right = R(2) - twice_left;
+    // The weight of one side is the distance to the other, so that both gradients have the same factor, bend.
+    const Value twice_left = R(2) * face.weight_left, bend = twice_left * face.half_left;
     SideNodes<Value> l, r;
     PlaneNodes<Value> plane;
     for (int c = 0; c < 4; ++c) {
@@ -211,10 +214,10 @@ HEMOFLUX_INLINE Quad<Value> face_flux(const FaceSide<Value>& left, const FaceSid
         r.d1[c] = face.delta * right.t1[c];
         r.d2[c] = face.delta * right.t2[c];
         r.a[c] = right.phi[c] + reach_right * right.n[c];
-        plane.c[c] = twice_left * (left.phi[c] + face.half_left * left.n[c]) +
-                     twice_right * (right.phi[c] - face.half_right * right.n[c]);
-        plane.m1[c] = twice_left * l.d1[c] + twice_right * r.d1[c];
-        plane.m2[c] = twice_left * l.d2[c] + twice_right * r.d2[c];
+        plane.c[c] = (right.phi[c] + right.phi[c]) +
+                     (twice_left * (left.phi[c] - right.phi[c]) + bend * (left.n[c] - right.n[c]));
+        plane.m1[c] = (r.d1[c] + r.d1[c]) + twice_left * (l.d1[c] - r.d1[c]);
+        plane.m2[c] = (r.d2[c] + r.d2[c]) + twice_left * (l.d2[c] - r.d2[c]);
     }
     Value relax = R(3) * nu * face.inv_delta;
     if constexpr (Preconditioned) relax = relax * R(inv_gamma);

@@ -100,9 +100,9 @@ void HexBoundary::evaluate(const meshing::HexGrid::Patch& range, const Patch& pa
             for (int c = 0; c < 4; ++c) {
                 const double slope = difference[c] / (2 * reach);
                 face.value[c] -= slope * to_foot;
-                face.slope[c][0] += slope * tangent.x;
-                face.slope[c][1] += slope * tangent.y;
-                face.slope[c][2] += slope * tangent.z;
+                face.slope[0][c] += slope * tangent.x;
+                face.slope[1][c] += slope * tangent.y;
+                face.slope[2][c] += slope * tangent.z;
             }
         }
     }

@@ -34,7 +34,7 @@ struct HexBorderFace {
     double normal[3];    ///< outward
     double step;         ///< distance between the cell's centre and the ghost's
     double value[4];     ///< given values at the foot of the cell's centre, or the density's inward gradient
-    double slope[4][3];  ///< their gradients along the face
+    double slope[3][4];  ///< their derivatives along the face with respect to x, y, z
     double mass_flux;    ///< outward, through the whole face
     VelocityCondition velocity;
     DensityCondition density;

@@ -77,9 +77,9 @@ struct HexFace {
         FaceGeometry<Value> face;
         face.half_left = field(face_reach_left);
         face.half_right = -field(face_reach_right);
-        face.weight_left = face.half_right / (face.half_left + face.half_right);
+        face.weight_left = field(face_weight);
         face.delta = field(face_delta);
-        face.inv_delta = 1.0 / face.delta;
+        face.inv_delta = field(face_inverse_delta);
         Value f[3] = {Value(0.0), Value(0.0), Value(0.0)};
         if constexpr (Force) {
             for (std::size_t a = 0; a < 3; ++a) {

@@ -85,6 +85,9 @@ void HexGeometry::set_faces(const meshing::HexGrid& grid, double delta_max) {
         put(f, face_reach_left, in_frame(reach_left));
         put(f, face_reach_right, in_frame(reach_right));
         put_one(f, face_delta, delta);
+        put_one(f, face_inverse_delta, 1 / delta);
+        const double to_left = dot(reach_left, frame.normal), to_right = -dot(reach_right, frame.normal);
+        put_one(f, face_weight, to_right / (to_left + to_right));
     }
     left_ = exchange::Buffer<std::uint32_t>(left);
     right_ = exchange::Buffer<std::uint32_t>(right);

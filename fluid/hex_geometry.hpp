@@ -28,7 +28,9 @@ enum FaceField : std::size_t {
     face_reach_left = face_area + 1,         ///< from the left cell, along n, t1, t2
     face_reach_right = face_reach_left + 3,  ///< from the right cell, along n (negative), t1, t2
     face_delta = face_reach_right + 3,       ///< streaming distance
-    face_fields = face_delta + 1
+    face_inverse_delta,                      ///< its reciprocal
+    face_weight,                             ///< distance weight of the left cell
+    face_fields
 };
 
 /// Everything kernels need of the grid; trivially copyable. Numbers of faces are padded to whole blocks: the faces beyond

@@ -21,6 +21,10 @@ HEMOFLUX_INLINE void reflect(const double (&n)[3], double& x, double& y, double&
     z -= twice * n[2];
 }
 
+using exchange::Four;
+using exchange::load_four;
+using exchange::store_four;
+
 struct GhostValues : Border {
     double* values;
     HEMOFLUX_FN void operator()(std::size_t b) const {
@@ -37,38 +41,38 @@ struct GhostValues : Border {
     }
 };
 
+/// Density and the three velocity components are treated side by side, in one register.
 struct GhostRecords : Border {
     const double* values;
     double* records;
     HEMOFLUX_FN void operator()(std::size_t b) const {
         const HexBorderFace& face = border.face[b];
-        const double* in = records + 16 * cell(b);
+        const double* in = records + 16 * cell(b) + 4;
         double* out = records + 16 * ghost(b);
-        double g[4][3];
-        for (int c = 0; c < 4; ++c) {
-            for (int a = 0; a < 3; ++a) g[c][a] = in[4 + 4 * a + c];
-            reflect(face.normal, g[c][0], g[c][1], g[c][2]);
-        }
-        if (face.density == DensityCondition::given)
-            for (int a = 0; a < 3; ++a) g[0][a] = 2 * face.slope[0][a] - g[0][a];
+        const double* n = face.normal;
+        const Four g[3] = {load_four(in), load_four(in + 4), load_four(in + 8)};
+        const Four twice = 2.0 * (n[0] * g[0] + n[1] * g[1] + n[2] * g[2]);
+        const bool of_density = face.density == DensityCondition::given,
+                   of_velocity = face.velocity == VelocityCondition::given;
+        const double sign_density = of_density ? -1 : 1, sign_velocity = of_velocity ? -1 : 1;
+        const double signs[4] = {sign_density, sign_velocity, sign_velocity, sign_velocity};
+        const double slopes[4] = {of_density ? 2.0 : 0.0, of_velocity ? 2.0 : 0.0, of_velocity ? 2.0 : 0.0,
+                                  of_velocity ? 2.0 : 0.0};
+        const Four sign = load_four(signs), given = load_four(slopes);
+        store_four(out, load_four(values + 4 * ghost(b)));
+        for (int a = 0; a < 3; ++a)
+            store_four(out + 4 + 4 * a, sign * (g[a] - n[a] * twice) + given * load_four(face.slope[a]));
         if (face.density == DensityCondition::given_gradient)
-            for (int a = 0; a < 3; ++a) g[0][a] -= 2 * face.value[0] * face.normal[a];
-        if (face.velocity == VelocityCondition::given)
-            for (int c = 1; c < 4; ++c)
-                for (int a = 0; a < 3; ++a) g[c][a] = 2 * face.slope[c][a] - g[c][a];
+            for (int a = 0; a < 3; ++a) out[4 + 4 * a] -= 2 * face.value[0] * n[a];
         if (face.velocity == VelocityCondition::symmetry)
-            for (int a = 0; a < 3; ++a) reflect(face.normal, g[1][a], g[2][a], g[3][a]);
-        for (int c = 0; c < 4; ++c) {
-            out[c] = values[4 * ghost(b) + c];
-            for (int a = 0; a < 3; ++a) out[4 + 4 * a + c] = g[c][a];
-        }
+            for (int a = 0; a < 3; ++a) reflect(face.normal, out[5 + 4 * a], out[6 + 4 * a], out[7 + 4 * a]);
     }
 };
 
 struct CopyToGhosts : Border {
     double* values;
     HEMOFLUX_FN void operator()(std::size_t b) const {
-        exchange::store_four(values + 4 * ghost(b), exchange::load_four(values + 4 * cell(b)));
+        store_four(values + 4 * ghost(b), load_four(values + 4 * cell(b)));
     }
 };
 

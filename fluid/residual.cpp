@@ -1,32 +1,22 @@
 #include "fluid/residual.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
-#include "exchange/parallel.hpp"
 #include "fluid/cell_residual.hpp"
-#include "fluid/tile_residual.hpp"
+#include "fluid/launch_tiles.hpp"
 
 namespace hemoflux::fluid {
 namespace {
 
-/// Tiles for `threads` threads: as tall as can be, for what two tiles share is computed twice, but enough of
-/// them for every thread.
-template <class F, class Real>
-void launch_tiles(const Balance<F, Real>& balance) {
-    const auto& n = balance.grid.layout.n;
-    const Split sx(n[0], max_segment, exchange::row_alignment), sy(n[1], max_rows, 1);
-    const auto threads = static_cast<std::size_t>(exchange::threads());
-    constexpr std::size_t tiles_per_thread = 4, least_planes = 4;
-    const std::size_t wanted = threads == 1 ? 1 : tiles_per_thread * threads / (sx.pieces * sy.pieces) + 1;
-    const Split sz(n[2], std::max((n[2] + wanted - 1) / wanted, least_planes), 1);
-    exchange::for_each_index(sx.pieces * sy.pieces * sz.pieces, TileResidual<F, Real>{balance, sx, sy, sz});
-}
-
 template <class F>
 struct ByTiles {
     static void launch(const Balance<F>& balance) {
-        if constexpr (!exchange::on_gpu) launch_tiles(balance);
+        if constexpr (!exchange::on_gpu) {
+            if constexpr (F::cubic)
+                launch_tiles(balance);
+            else
+                launch_stretched_tiles(balance);
+        }
     }
 };
 

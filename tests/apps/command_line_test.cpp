@@ -54,6 +54,8 @@ TEST_F(CommandLine, Benchmarks) {
     const Outcome thesis = run("bench thesis --quick");
     EXPECT_EQ(thesis.code, 0) << thesis.text;
     EXPECT_NE(thesis.text.find("15550"), std::string::npos) << thesis.text;
+    EXPECT_NE(thesis.text.find("1177.27"), std::string::npos) << thesis.text;
+    EXPECT_EQ(thesis.text.find("nan"), std::string::npos) << thesis.text;
     expect_error("bench --cells 4", 2, "--cells");
 }
 

@@ -5,10 +5,10 @@
 #include "benchmarks.hpp"
 #include "fluid/factored.hpp"
 #include "fluid/hex_solver.hpp"
+#include "fluid/roofline.hpp"
 #include "fluid/single_residual.hpp"
 #include "fluid_problem.hpp"
 #include "meshing/hex_box.hpp"
-#include "roofline.hpp"
 #include "scalar_lbfs.hpp"
 
 namespace hemoflux::bench {
@@ -17,7 +17,7 @@ namespace {
 using benchmark::RegisterBenchmark;
 
 /// Rates of operations and of memory traffic beside items_per_second.
-void count(benchmark::State& state, std::size_t cells, const Work& work) {
+void count(benchmark::State& state, std::size_t cells, const fluid::Work& work) {
     const double items = static_cast<double>(cells) * static_cast<double>(state.iterations());
     using benchmark::Counter;
     state.counters["FLOP/s"] = Counter(items * work.operations, Counter::kIsRate);
@@ -27,7 +27,7 @@ void count(benchmark::State& state, std::size_t cells, const Work& work) {
 void residual(benchmark::State& state, int n, Features features, int threads) {
     const FluidProblem problem({n, n, n}, features);
     measure(state, threads, problem.cells(), [&] { problem.evaluate(); });
-    count(state, problem.cells(), features == Features::plain ? cubic_work : full_work);
+    count(state, problem.cells(), features == Features::plain ? fluid::cubic_work : fluid::full_work);
 }
 
 /// In single precision; the state is rounded once.
@@ -37,7 +37,7 @@ void residual_single(benchmark::State& state, int n, int threads) {
     single.round(problem.state.view());
     measure(state, threads, problem.cells(),
             [&] { single.evaluate_rounded(problem.boundary.view(), problem.parameters); });
-    count(state, problem.cells(), single_work);
+    count(state, problem.cells(), fluid::single_work);
 }
 
 /// With ghost cells and gradients, on a box of shuffled hexahedra.
@@ -56,6 +56,7 @@ void residual_unstructured(benchmark::State& state, int n, int threads) {
         return fluid::FlowPoint{1, {0.05 * std::sin(6 * x.y / edge), 0.05 * std::sin(6 * x.z / edge), 0}};
     });
     measure(state, threads, solver.cells(), [&] { solver.evaluate(); });
+    count(state, solver.cells(), fluid::unstructured_work);
 }
 
 void residual_by_cell(benchmark::State& state, int n, Features features) {
