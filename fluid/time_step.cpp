@@ -30,18 +30,45 @@ double acoustic_eigenvalue(const Grid& grid, double speed, double gamma) {
         sum += 1 / axis.smallest();
         squares += 1 / (axis.smallest() * axis.smallest());
     }
-    const double sound = std::sqrt(speed * speed * (1 - gamma) + gamma * gamma / 3);
-    return (speed * sum + sound * std::sqrt(squares)) / gamma;
+    return (speed * sum + preconditioned_sound(speed, gamma) * std::sqrt(squares)) / gamma;
+}
+
+double preconditioned_sound(double speed, double gamma) {
+    return std::sqrt(speed * speed * (1 - gamma) + gamma * gamma / 3);
+}
+
+double explicit_step(Scheme scheme, const StepRates& r) {
+    constexpr double faster_sound = 1.17;
+    const double real = std::max(r.viscous + r.streaming_largest, r.streaming_sum);
+    if (scheme == Scheme::rk4) return radius_rk4 / std::hypot(real, faster_sound * r.acoustic);
+    const auto of_waves = [](double damping, double speed) {
+        return speed > 0 ? 2 * damping / (speed * speed) : 1e300;
+    };
+    return std::min({1 / (real / real_limit_euler + r.acoustic), of_waves(r.diffusivity, r.fastest),
+                     of_waves(r.viscosity, r.convection)});
 }
 
 double stable_step(const Grid& grid, Scheme scheme, double nu, double speed, double gamma) {
     if (scheme == Scheme::factored)
         return factored_limit * grid.rectilinear().smallest() * gamma / (gamma + speed);
-    const double viscous = viscous_eigenvalue(grid, nu / gamma);
-    const double acoustic = acoustic_eigenvalue(grid, speed, gamma);
-    if (scheme == Scheme::rk4) return 1 / (viscous / real_limit_rk4 + acoustic / imaginary_limit_rk4);
-    // Forward Euler is unstable for undamped waves; viscosity damps them while dt < 2 lambda_v / lambda_c^2.
-    return std::min(real_limit_euler / viscous, 1 / (viscous / real_limit_euler + acoustic));
+    StepRates r;
+    r.viscous = viscous_eigenvalue(grid, nu / gamma);
+    r.acoustic = acoustic_eigenvalue(grid, speed, gamma);
+    double delta = 1e300;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto& axis = grid.rectilinear().axes[a];
+        delta = std::min(delta, grid.smallest_delta(static_cast<int>(a)));
+        if (axis.cells() == 1) continue;
+        const double streaming = streaming_rate / axis.smallest();
+        r.streaming_sum += streaming;
+        r.streaming_largest =
+            std::max(r.streaming_largest, streaming + 2 * speed / (gamma * axis.smallest()));
+    }
+    r.viscosity = nu / gamma;
+    r.diffusivity = r.viscosity + delta / 3;
+    r.convection = speed / gamma;
+    r.fastest = (speed + preconditioned_sound(speed, gamma)) / gamma;
+    return explicit_step(scheme, r);
 }
 
 }  // namespace hemoflux::fluid

@@ -90,6 +90,10 @@ TEST(Amplification, BoundariesOfTheRegion) {
     EXPECT_GT(std::abs(polynomial(-1.001 * real_limit_rk4)), 1);
     EXPECT_LT(std::abs(polynomial(Complex(0, 0.999 * imaginary_limit_rk4))), 1);
     EXPECT_GT(std::abs(polynomial(Complex(0, 1.001 * imaginary_limit_rk4))), 1);
+    for (int i = 1; i <= 100; ++i)
+        for (int j = 0; j <= 100; ++j)
+            EXPECT_LE(std::abs(polynomial(std::polar(0.01 * i * radius_rk4, pi / 2 * (1 + 0.02 * j)))),
+                      1 + 1e-12);
 }
 
 // Shear waves: real eigenvalues, nu k^2 for long waves.
