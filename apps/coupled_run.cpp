@@ -9,6 +9,7 @@
 #include "apps/interrupt.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
+#include "apps/suspension_observer.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
@@ -18,10 +19,11 @@ namespace {
 /// Steps between two looks for NaN and lost nodes.
 constexpr long long watch_interval = 25;
 
-std::vector<std::string> history_columns(std::size_t cells) {
+std::vector<std::string> history_columns(std::size_t cells, const std::vector<std::string>& more) {
     std::vector<std::string> columns{"step", "time_s", "strain"};
     for (std::size_t c = 0; c < cells; ++c)
         for (const std::string& name : cell_columns()) columns.push_back(fmt::format("{}.{}", c, name));
+    columns.insert(columns.end(), more.begin(), more.end());
     columns.insert(columns.end(), {"mean_density", "residual", "dt_s"});
     return columns;
 }
@@ -52,21 +54,24 @@ class CoupledRun {
         files_.log().info(fmt::format("{}: preparing the cells", case_.title));
         system_.add_cells(case_, files_.restart());
         observer_.emplace(*system_.cells);
+        if (SuspensionObserver::wanted(case_)) suspension_.emplace(case_, system_);
         catch_interrupts();
         files_.log().info(describe(case_, system_));
         if (files_.restart()) {
             system_.load(*files_.restart());
             observer_->load(*files_.restart());
+            if (suspension_) suspension_->load(*files_.restart());
             evaluations_before_ = files_.restart()->number("evaluations");
             first_density_ = files_.restart()->number("first_density");
         } else {
             first_density_ = system_.fluid->mean_density();
         }
         done_ = files_.first_step();
-        files_.start_history(history_columns(system_.cells->cells()));
+        files_.start_history(history_columns(
+            system_.cells->cells(), suspension_ ? suspension_->columns() : std::vector<std::string>{}));
         files_.start_series(system_.plan.at(done_));
         if (!files_.restart()) {
-            record();
+            record(0);
             frame();
         }
         if (files_.moved()) {
@@ -83,15 +88,16 @@ class CoupledRun {
                                   options_.quiet);
         const auto cells = static_cast<double>(system_.fluid->grid().view().layout.cells());
         while (done_ < system_.plan.steps) {
+            const bool last = done_ + 1 == system_.plan.steps;
+            const bool write = last || due(system_.plan, done_ + 1, frame_interval());
+            const bool row = write || due(system_.plan, done_ + 1, case_.output.history_interval_strain);
+            if (row && suspension_) suspension_->before_step();
             system_.loop->step(system_.numerics.step);
             ++done_;
-            const bool last = done_ == system_.plan.steps;
-            const bool write = last || due(system_.plan, done_, frame_interval());
-            const bool row = write || due(system_.plan, done_, case_.output.history_interval_strain);
             const bool save = last || due(system_.plan, done_, case_.output.checkpoint_interval_strain);
             const bool stop = interrupted();
             if (row || save || stop || done_ % watch_interval == 0) system_.loop->check();
-            if (row) record();
+            if (row) record(system_.numerics.step);
             if (write) frame();
             if (row || save) remember();
             if (save || stop) files_.write_checkpoint(checkpoint(), done_);
@@ -108,11 +114,15 @@ class CoupledRun {
                                      : case_.output.interval_strain;
     }
 
-    void record() {
+    /// step: length of the step that ends here, 0 at the start.
+    void record(double step) {
         const double strain = system_.plan.at(done_);
         std::vector<double> row{static_cast<double>(done_), strain / *case_.shear_rate, strain};
+        // before the cells' own observer, which computes the forces anew
+        const auto all = suspension_ ? suspension_->observe(strain, step) : std::vector<double>{};
         const auto cells = observer_->observe(*system_.cells, strain);
         row.insert(row.end(), cells.begin(), cells.end());
+        row.insert(row.end(), all.begin(), all.end());
         row.insert(row.end(), {system_.fluid->mean_density(), system_.fluid->residual_norm().density,
                                system_.numerics.step_seconds});
         files_.add_row(row);
@@ -140,6 +150,7 @@ class CoupledRun {
         output::Checkpoint cp;
         system_.save(cp);
         observer_->save(cp);
+        if (suspension_) suspension_->save(cp);
         cp.put_number("evaluations", evaluations());
         cp.put_number("first_density", first_density_);
         return cp;
@@ -161,6 +172,9 @@ class CoupledRun {
         const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
         s.observables = observer_->observables(window[0], window[1]);
         s.observables["strain"] = strain;
+        if (suspension_)
+            for (const auto& [name, value] : suspension_->observables(window[0], window[1]))
+                s.observables[name] = value;
         s.conservation.volume = observer_->volume_error();
         s.conservation.area = observer_->area_error();
         s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;
@@ -203,6 +217,7 @@ class CoupledRun {
     CoupledSystem system_;  // before the files: a case that it refuses leaves nothing behind
     RunFiles files_;
     std::optional<CellObserver> observer_;
+    std::optional<SuspensionObserver> suspension_;
     long long done_ = 0, good_step_ = 0;
     output::Checkpoint good_;
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;

@@ -62,6 +62,8 @@ class ImmersedCells final : public Immersed {
 
     /// The smallest distance between two cells now; see OverlapCheck. Infinite (1e300) for a cell alone.
     [[nodiscard]] Gap smallest_gap();
+    /// How far smallest_gap() looks, um.
+    [[nodiscard]] double gap_reach() const { return overlap_ ? overlap_->reach() : 0; }
     /// Energy of the contacts where forces were last computed, 1e-17 J.
     [[nodiscard]] double contact_energy() { return contact_ ? contact_->energy() : 0; }
 

@@ -4,6 +4,7 @@
 
 #include "coupling/interpolate.hpp"
 #include "exchange/error.hpp"
+#include "exchange/memory.hpp"
 
 namespace hemoflux::coupling {
 
@@ -86,6 +87,23 @@ void Loop::check() {
         if (lost < p->stencils.size()) p->immersed.report_lost(lost);
         p->immersed.check();
     }
+}
+
+NodalForce Loop::nodal_force() const {
+    NodalForce total;
+    for (const auto& p : partners_) {
+        std::vector<double> f[3];
+        for (int q = 0; q < 3; ++q) {
+            f[q].resize(p->force.size);
+            exchange::copy_to_host(f[q].data(), p->force.component[q], p->force.size * sizeof(double));
+        }
+        for (std::size_t i = 0; i < p->force.size; ++i) {
+            const Vec3d one = p->immersed.force_factor() * Vec3d{f[0][i], f[1][i], f[2][i]};
+            total.sum += one;
+            total.gross += norm(one);
+        }
+    }
+    return total;
 }
 
 void Loop::restore(const CellMemory& memory) {

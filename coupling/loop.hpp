@@ -31,6 +31,12 @@ struct LoopOptions {
     std::optional<ContactOptions> contact;  ///< forces between cells, and from walls
 };
 
+/// Forces of all nodes on the fluid in lattice units: their sum and the sum of their magnitudes.
+struct NodalForce {
+    Vec3d sum{0, 0, 0};
+    double gross = 0;
+};
+
 class Loop {
   public:
     /// A loop with nothing immersed yet; the fluid must outlive it and needs a force field.
@@ -61,6 +67,8 @@ class Loop {
     [[nodiscard]] std::size_t viscosity_updates() const { return cells_ ? cells_->viscosity_updates() : 0; }
     /// The membrane cells; null in a loop without.
     [[nodiscard]] ImmersedCells* cells() { return cells_.get(); }
+    /// The forces of the last step.
+    [[nodiscard]] NodalForce nodal_force() const;
     /// All fields that the partners exchange.
     [[nodiscard]] const exchange::FieldTable& fields() const { return fields_; }
     /// The fluid's grid as the partners see it.

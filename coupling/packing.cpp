@@ -29,6 +29,8 @@ namespace {
 /// Tries for one cell before the box counts as full, and the size at which growing cells start.
 constexpr int tries = 3000;
 constexpr double first_size = 0.45, growth = 1.02;
+/// What cells that do not get stuck grow by while patience lasts.
+constexpr double least_progress = 1.003;
 /// Largest move (um) and turn (parts of the axis) of a cell in one sweep.
 constexpr double largest_move = 0.6, largest_turn = 0.3;
 /// Vertices that are enough to find an overlap.
@@ -47,7 +49,12 @@ class Packing {
         if (add_all()) return cells_;
         size_ = first_size;
         const bool started = add_all();
-        for (int sweep = 0; started && sweep < in_.sweeps; ++sweep) {
+        double before = 0;
+        for (int sweep = 0; started; ++sweep) {
+            if (sweep % in_.patience == 0) {
+                if (size_ < least_progress * before) break;
+                before = size_;
+            }
             for (std::size_t c = 0; c < cells_.size(); ++c) move(c);
             grow();
             if (size_ == 1) return cells_;

@@ -34,8 +34,8 @@ struct PackingInput {
     std::vector<std::array<int, 3>> triangles;
     std::size_t cells = 0;
     std::uint64_t seed = 1;
-    double gap = 0.2;   ///< between any two cells, and from walls, um
-    int sweeps = 3000;  ///< moves of every cell before it is given up
+    double gap = 0.2;    ///< between any two cells, and from walls, um
+    int patience = 200;  ///< moves of every cell without progress before it is given up
 };
 
 /// Places the cells; the same for the same input everywhere. Throws InputError that says how far it came when no

@@ -102,13 +102,18 @@ double repeat(const Patch& patch, std::size_t axis, std::size_t component) {
 
 Factored::Factored(const Grid& grid, const Boundary& boundary, double nu, double dt)
     : layout_(grid.view().layout), nu_(nu), dt_(dt) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        widths_[axis] = grid.rectilinear().axes[axis].widths();
         for (std::size_t c = 0; c < 3; ++c) {
-            const HostLine line =
-                factor_line(grid.ghosted_widths(static_cast<int>(axis)), exchange::ghosts,
-                            dt * nu * (axis == c ? 2 : 1), grid.smallest_delta(static_cast<int>(axis)),
-                            grid.periodic()[axis], repeat(boundary.patches()[2 * axis], axis, c),
-                            repeat(boundary.patches()[2 * axis + 1], axis, c));
+            const auto widths = grid.ghosted_widths(static_cast<int>(axis));
+            const double strength = dt * nu * (axis == c ? 2 : 1),
+                         delta = grid.smallest_delta(static_cast<int>(axis)),
+                         low = repeat(boundary.patches()[2 * axis], axis, c),
+                         high = repeat(boundary.patches()[2 * axis + 1], axis, c);
+            const bool periodic = grid.periodic()[axis];
+            operators_[axis][c] =
+                line_operator(widths, exchange::ghosts, strength, delta, periodic, low, high);
+            const HostLine line = factor_line(widths, exchange::ghosts, strength, delta, periodic, low, high);
             const auto keep = [&](const std::vector<double>& values) {
                 buffers_.emplace_back(values);
                 return buffers_.back().data();
@@ -118,6 +123,7 @@ Factored::Factored(const Grid& grid, const Boundary& boundary, double nu, double
                  nullptr,          line.cyclic_last, line.cyclic_scale};
             if (!line.cyclic.empty()) f.cyclic = keep(line.cyclic);
         }
+    }
 }
 
 void Factored::solve(const ResidualView& r) const {

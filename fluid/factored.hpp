@@ -16,6 +16,7 @@
 
 #include "exchange/buffer.hpp"
 #include "fluid/boundary.hpp"
+#include "fluid/factored_lines.hpp"
 #include "fluid/grid.hpp"
 #include "fluid/residual.hpp"
 
@@ -40,6 +41,11 @@ class Factored {
     /// r[1..3] <- dQ from r[1..3] = R.
     void solve(const ResidualView& r) const;
 
+    /// What the implicit operator, beyond dt R, lets through the sides that are not periodic: the momentum that the fluid
+    /// gains by it in a step whose increments of momentum (per volume; three components of all cells, x fastest) these
+    /// are. On the host, for the balance of momentum.
+    [[nodiscard]] Vec3d side_impulse(std::array<std::vector<double>, 3> increments) const;
+
     [[nodiscard]] double dt() const { return dt_; }
     [[nodiscard]] double nu() const { return nu_; }
 
@@ -47,7 +53,9 @@ class Factored {
     exchange::Layout layout_;
     double nu_, dt_;
     std::vector<exchange::Buffer<double>> buffers_;
-    std::array<std::array<LineFactors, 3>, 3> factors_;  // [axis][component]
+    std::array<std::array<LineFactors, 3>, 3> factors_;     // [axis][component]
+    std::array<std::array<LineOperator, 3>, 3> operators_;  // the same, not factored
+    std::array<std::vector<double>, 3> widths_;
 };
 
 }  // namespace hemoflux::fluid

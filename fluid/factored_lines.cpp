@@ -15,22 +15,32 @@ double conductance(double width, double next, double delta) {
 
 }  // namespace
 
+LineOperator line_operator(const std::vector<double>& widths, std::size_t ghosts, double strength,
+                           double delta, bool periodic, double low, double high) {
+    const std::size_t n = widths.size() - 2 * ghosts;
+    LineOperator line{{}, {}, periodic, low, high};
+    if (n == 1 && periodic) strength = 0;  // a line of one cell has no neighbours
+    for (std::size_t i = 0; i < n; ++i) {
+        const double dx = widths[i + ghosts];
+        line.down.push_back(strength / dx * conductance(dx, widths[i + ghosts - 1], delta));
+        line.up.push_back(strength / dx * conductance(dx, widths[i + ghosts + 1], delta));
+    }
+    return line;
+}
+
 HostLine factor_line(const std::vector<double>& widths, std::size_t ghosts, double strength, double delta,
                      bool periodic, double low, double high) {
-    const std::size_t n = widths.size() - 2 * ghosts;
+    const LineOperator op = line_operator(widths, ghosts, strength, delta, periodic, low, high);
+    const std::size_t n = op.down.size();
     HostLine line;
     line.lower.assign(n, 0.0);
     line.pivot.assign(n, 1.0);
     line.upper.assign(n, 0.0);
     std::vector<double> diagonal(n, 1.0);
-    if (n == 1 && periodic) strength = 0;  // a line of one cell has no neighbours
     for (std::size_t i = 0; i < n; ++i) {
-        const double dx = widths[i + ghosts];
-        const double down = strength / dx * conductance(dx, widths[i + ghosts - 1], delta);
-        const double up = strength / dx * conductance(dx, widths[i + ghosts + 1], delta);
-        line.lower[i] = -down;
-        line.upper[i] = -up;
-        diagonal[i] = 1 + down + up;
+        line.lower[i] = -op.down[i];
+        line.upper[i] = -op.up[i];
+        diagonal[i] = 1 + op.down[i] + op.up[i];
     }
     double corner_low = 0, corner_high = 0, gamma = 0;
     if (periodic) {

@@ -12,6 +12,18 @@ struct HostLine {
     double cyclic_last = 0, cyclic_scale = 0;
 };
 
+/// I - strength L on one axis, by what a cell exchanges with its neighbours:
+/// ((I - strength L) x)_i = x_i + down_i (x_i - x_{i-1}) + up_i (x_i - x_{i+1}).
+struct LineOperator {
+    std::vector<double> down, up;  ///< of every cell
+    bool periodic = false;
+    double low = 1, high = 1;  ///< factor by which a ghost repeats its border cell
+};
+
+/// The operator whose factors are factor_line().
+LineOperator line_operator(const std::vector<double>& widths, std::size_t ghosts, double strength,
+                           double delta, bool periodic, double low, double high);
+
 /// Factors of I - strength L on one axis. delta: smallest streaming distance of the faces across this axis;
 /// where it is less than half the distance s of two centres, the explicit viscous flux is stiffer by s/(2
 /// delta), and so is L made. widths: cell widths with `ghosts` ghost cells at either end; periodic: cyclic

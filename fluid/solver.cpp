@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "exchange/error.hpp"
+#include "fluid/border_flux.hpp"
 #include "fluid/local_step.hpp"
 #include "fluid/update.hpp"
 
@@ -110,6 +111,12 @@ void Solver::evaluate() {
         evaluate_residual(grid_.view(), state_.view(), boundary_.view(), flow_parameters(),
                           residual_view(residual_));
     ++evaluations_;
+}
+
+std::array<Vec3d, 6> Solver::border_momentum() {
+    fill_coefficients();
+    boundary_.fill(grid_.view(), state_.view());
+    return fluid::border_momentum(grid_.view(), state_.view(), boundary_.view(), flow_parameters());
 }
 
 void Solver::set_time(double t) {

@@ -67,6 +67,14 @@ class Solver final : public Flow {
     void read_local_steps(double* dt) const override;
     [[nodiscard]] CompactModel compact_model() const override;
 
+    /// Momentum per time through each side outwards (border_flux.hpp), at the state, force and viscosity as they stand.
+    [[nodiscard]] std::array<Vec3d, 6> border_momentum();
+    /// What the factored scheme lets through the sides beyond that in a step with these increments of momentum; see
+    /// Factored::side_impulse(). Zero for other schemes.
+    [[nodiscard]] Vec3d side_impulse(const std::array<std::vector<double>, 3>& increments) const {
+        return factored_ ? factored_->side_impulse(increments) : Vec3d{0, 0, 0};
+    }
+
     /// Evaluates R(Q) into residual().
     void evaluate() override;
 

@@ -5,13 +5,13 @@
 #include <vtkArrowSource.h>
 #include <vtkCamera.h>
 #include <vtkCellDataToPointData.h>
-#include <vtkColorTransferFunction.h>
 #include <vtkCutter.h>
 #include <vtkDataSetMapper.h>
 #include <vtkGlyph3D.h>
 #include <vtkImageData.h>
 #include <vtkLightKit.h>
 #include <vtkLookupTable.h>
+#include <vtkOutlineSource.h>
 #include <vtkPlane.h>
 #include <vtkPlaneSource.h>
 #include <vtkPointData.h>
@@ -32,27 +32,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/output/palette.hpp"
+
 namespace hemoflux::output {
 namespace {
 
-/// Light to dark blue, on which a red cell stands out.
-vtkSmartPointer<vtkLookupTable> blues(double maximum) {
-    vtkNew<vtkColorTransferFunction> scale;
-    scale->SetColorSpaceToLab();
-    scale->AddRGBPoint(0.0, 0.97, 0.98, 1.0);
-    scale->AddRGBPoint(0.5, 0.55, 0.77, 0.90);
-    scale->AddRGBPoint(1.0, 0.13, 0.44, 0.71);
-    auto table = vtkSmartPointer<vtkLookupTable>::New();
-    constexpr int n = 256;
-    table->SetNumberOfTableValues(n);
-    for (int i = 0; i < n; ++i) {
-        double rgb[3];
-        scale->GetColor(double(i) / (n - 1), rgb);
-        table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
-    }
-    table->SetVectorModeToMagnitude();
-    table->SetRange(0, maximum > 0 ? maximum : 1);
-    return table;
+long long number_of_cells(vtkPolyData* cells) {
+    vtkDataArray* index = cells->GetPointData()->GetArray("cell");
+    return index && index->GetNumberOfTuples() > 0 ? 1 + static_cast<long long>(index->GetRange()[1]) : 1;
 }
 
 /// "velocity_um_per_s" as people write it: "velocity, um/s".
@@ -99,7 +86,9 @@ Scene::~Scene() = default;
 
 vtkSmartPointer<vtkImageData> Scene::draw(const FrameData& frame) {
     renderer_->RemoveAllViewProps();
+    several_ = frame.cells && number_of_cells(frame.cells) > 1;
     if (frame.fluid && !spec_.array.empty()) {
+        if (several_) add_outline();
         add_slice(frame.fluid);
         add_arrows(frame.fluid);
         add_scale();
@@ -117,11 +106,29 @@ vtkSmartPointer<vtkImageData> Scene::draw(const FrameData& frame) {
     return copy;
 }
 
+void Scene::add_outline() {
+    vtkNew<vtkOutlineSource> box;
+    box->SetBounds(spec_.bounds.data());
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(box->GetOutputPort());
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    actor->GetProperty()->SetColor(0.45, 0.45, 0.5);
+    actor->GetProperty()->SetLineWidth(1.5);
+    actor->GetProperty()->LightingOff();
+    renderer_->AddActor(actor);
+}
+
+double Scene::slice_z() const {
+    // just inside the box, so that the cut finds cells
+    return several_ ? spec_.bounds[4] + 1e-3 * extent(spec_.bounds, 2) : middle(spec_.bounds, 2);
+}
+
 void Scene::add_slice(vtkRectilinearGrid* fluid) {
     vtkNew<vtkCellDataToPointData> points;
     points->SetInputData(fluid);
     vtkNew<vtkPlane> plane;
-    plane->SetOrigin(middle(spec_.bounds, 0), middle(spec_.bounds, 1), middle(spec_.bounds, 2));
+    plane->SetOrigin(middle(spec_.bounds, 0), middle(spec_.bounds, 1), slice_z());
     plane->SetNormal(0, 0, 1);
     vtkNew<vtkCutter> cut;
     cut->SetInputConnection(points->GetOutputPort());
@@ -148,7 +155,7 @@ void Scene::add_arrows(vtkRectilinearGrid* fluid) {
     // a lattice of its own: the grid's cells are too many and crowd where it is fine
     constexpr int n = 11;
     const auto& b = spec_.bounds;
-    const double mx = extent(b, 0) / (2 * n), my = extent(b, 1) / (2 * n), z = middle(b, 2);
+    const double mx = extent(b, 0) / (2 * n), my = extent(b, 1) / (2 * n), z = slice_z();
     vtkNew<vtkPlaneSource> lattice;
     lattice->SetOrigin(b[0] + mx, b[2] + my, z);
     lattice->SetPoint1(b[1] - mx, b[2] + my, z);
@@ -188,7 +195,14 @@ void Scene::add_cells(vtkPolyData* cells) {
     normals->ConsistencyOff();
     vtkNew<vtkPolyDataMapper> mapper;
     mapper->SetInputConnection(normals->GetOutputPort());
-    mapper->ScalarVisibilityOff();
+    if (several_) {
+        mapper->SetScalarModeToUsePointFieldData();
+        mapper->SelectColorArray("cell");
+        mapper->SetLookupTable(reds());
+        mapper->UseLookupTableScalarRangeOn();
+    } else {
+        mapper->ScalarVisibilityOff();
+    }
     vtkNew<vtkActor> actor;
     actor->SetMapper(mapper);
     vtkProperty* look = actor->GetProperty();
@@ -262,7 +276,10 @@ void Scene::set_camera() {
     camera->Azimuth(-18);
     camera->Elevation(16);
     camera->OrthogonalizeViewUp();
-    camera->SetParallelScale(0.58 * std::max(extent(b, 1), 1.15 * extent(b, 0) * spec_.height / spec_.width));
+    // of several cells the whole box is seen, obliquely
+    const double depth = several_ ? 0.31 * extent(b, 2) : 0;
+    camera->SetParallelScale(
+        0.58 * std::max(extent(b, 1) + depth, 1.15 * (extent(b, 0) + depth) * spec_.height / spec_.width));
     // a little to the left, for the colour scale
     camera->SetWindowCenter(0.06, 0);
     renderer_->ResetCameraClippingRange();

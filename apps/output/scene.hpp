@@ -48,6 +48,9 @@ class Scene {
     vtkSmartPointer<vtkImageData> draw(const FrameData& frame);
 
   private:
+    /// Edges of the box, and the z of the slice: the middle, but behind the cells where there are several.
+    void add_outline();
+    [[nodiscard]] double slice_z() const;
     void add_slice(vtkRectilinearGrid* fluid);
     void add_arrows(vtkRectilinearGrid* fluid);
     void add_cells(vtkPolyData* cells);
@@ -56,6 +59,7 @@ class Scene {
     void set_camera();
 
     SceneSpec spec_;
+    bool several_ = false;  ///< cells in the frame
     vtkNew<vtkRenderWindow> window_;
     vtkNew<vtkRenderer> renderer_;
     vtkSmartPointer<vtkLookupTable> colours_;

@@ -84,7 +84,7 @@ TEST(Packing, IsTheSameForTheSameSeedOnly) {
 
 TEST(Packing, SaysHowFarItCame) {
     PackingInput in = input({{0, 0, 0}, {9, 9, 9}, {true, true, true}}, 8);
-    in.sweeps = 20;
+    in.patience = 20;
     try {
         static_cast<void>(pack(in));
         FAIL();
