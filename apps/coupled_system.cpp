@@ -174,8 +174,12 @@ std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numeric
     o.pull = std::move(pull);
     o.surface_nu = surface_viscosity_in_fluid(c, n);
     if (c.coupling.membrane_viscosity == MembraneViscosityForm::springs &&
-        c.cells.front().membrane_viscosity > 0)
+        c.cells.front().membrane_viscosity > 0) {
         o.membrane_time = n.step_seconds / n.step * 1e5;  // the membrane counts time in 1e-5 s
+        // as stiff as the step allows, so that the elements yield in much less than a strain unit
+        constexpr double length = 1e-6, tension_unit = 1e-5;  // m, N/m
+        o.maxwell_stiffness = length * c.fluid.viscosity / n.step_seconds / tension_unit;
+    }
     o.kernel = kernel_of(c.coupling.kernel);
     o.force_factor = n.force_factor;
     o.recentre = c.coupling.recentre;

@@ -57,7 +57,8 @@ ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const
         viscosity_ = std::make_unique<InteriorViscosity>(
             grid, cells_.topology().triangles(), cells_.stride(), options_.nu_inside, options_.nu_outside,
             options_.smoothing, MotionLimits{}, options_.surface_nu);
-    if (options_.membrane_time > 0) elements_ = std::make_unique<membrane::MembraneViscosity>(cells_);
+    if (options_.membrane_time > 0)
+        elements_ = std::make_unique<membrane::MembraneViscosity>(cells_, options_.maxwell_stiffness);
     const auto& triangles = cells_.topology().triangles();
     const NodeBox box = node_box(grid.view());
     if (options_.contact)

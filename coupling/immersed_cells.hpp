@@ -34,6 +34,7 @@ struct CellOptions {
     /// Membrane viscosity as the membrane's own (Maxwell elements along its springs): what a lattice time (um/c) is in
     /// 1e-5 s; 0: none.
     double membrane_time = 0;
+    double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
 };
 
 /// What the cells' future depends on besides fluid and nodes.

@@ -37,6 +37,7 @@ struct LoopOptions {
     /// Membrane viscosity as the membrane's own (Maxwell elements along its springs): what a lattice time (um/c) is in
     /// 1e-5 s; 0: none.
     double membrane_time = 0;
+    double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
 };
 
 class Loop {
