@@ -90,8 +90,13 @@ Case read_values(const toml::table& values) {
         c.cells.push_back(read_cell(cell));
     }
     if (const auto coupling = in.table("coupling")) {
-        c.coupling = {chosen<Kernel>(coupling->text("kernel"), {"lagrange", "phi2", "phi3", "phi4"}),
-                      coupling->flag("recentre"), coupling->number("smoothing")};
+        c.coupling = {
+            chosen<Kernel>(coupling->text("kernel"), {"lagrange", "phi2", "phi3", "phi4"}),
+            coupling->flag("recentre"), coupling->number("smoothing"),
+            chosen<MembraneViscosityForm>(coupling->text("membrane_viscosity"), {"springs", "fluid"})};
+    }
+    if (const auto tweezers = in.table("tweezers")) {
+        c.tweezers = read_tweezers(*tweezers);
     }
     if (const auto contact = in.table("contact")) {
         c.contact = read_contact(*contact);

@@ -34,6 +34,7 @@ enum class DensityCondition { zero_gradient, gradient, expression, density, pres
 enum class CellShape { discocyte, sphere, spheroid, evans_fung, file };
 enum class MembraneReference { stress_free, uniform, coarse_grained, spheroid, file, stored, automatic };
 enum class Kernel { lagrange, phi2, phi3, phi4 };
+enum class MembraneViscosityForm { springs, fluid };
 enum class TimeScheme { euler, rk4, factored };
 enum class MembraneTask { relax, stretch, shapes, moduli, recovery, calibrate };
 enum class SteadyMethod { implicit, local_steps };
@@ -121,11 +122,20 @@ struct CellInput {
     bool operator==(const CellInput&) const = default;
 };
 
+/// [tweezers]: a cell pulled at both ends along x.
+struct TweezersInput {
+    double force = 0;  ///< pN
+    membrane::Grip grip;
+    double tolerance = 0;  ///< um/s; the run ends when both diameters change more slowly
+    bool operator==(const TweezersInput&) const = default;
+};
+
 /// [coupling]
 struct CouplingInput {
     Kernel kernel = Kernel::lagrange;
     bool recentre = false;
     double smoothing = 1;  ///< half-width of the viscosity step in local cells
+    MembraneViscosityForm membrane_viscosity = MembraneViscosityForm::springs;
     bool operator==(const CouplingInput&) const = default;
 };
 
@@ -199,6 +209,12 @@ struct AnalyticalInput {
     bool operator==(const AnalyticalInput&) const = default;
 };
 
+/// [[sweep.measured]]: points to show beside the computed ones.
+struct MeasuredInput {
+    std::string file, x, y, label;  ///< CSV file and its columns; x in the unit of the first swept value
+    bool operator==(const MeasuredInput&) const = default;
+};
+
 /// [sweep]: values as TOML text, [key][value].
 struct SweepInput {
     std::vector<std::string> keys;
@@ -208,6 +224,7 @@ struct SweepInput {
     std::optional<std::array<double, 2>> order_range;
     bool difference = false;
     bool log_x = true, log_y = true;
+    std::vector<MeasuredInput> measured;
     bool operator==(const SweepInput&) const = default;
 };
 
@@ -273,6 +290,7 @@ struct Case {
     CouplingInput coupling;
     std::optional<ContactInput> contact;
     std::optional<PackingInput> packing;  ///< `cells` then holds as many alike as fit, not placed yet
+    std::optional<TweezersInput> tweezers;
     TimeInput time;
     NumericsInput numerics;
     MembraneInput membrane;

@@ -163,6 +163,8 @@ SweepInput read_sweep(const Section& in, const toml::table& listed) {
     if (const auto range = in.numbers("order_range"); !range.empty())
         sweep.order_range = {range[0], range[1]};
     sweep.difference = in.flag("difference_from_last");
+    for (const Section& m : in.tables("measured"))
+        sweep.measured.push_back({m.text("file"), m.text("x"), m.text("y"), m.text("label")});
     sweep.log_x = log == "x" || log == "both";
     sweep.log_y = log == "y" || log == "both";
     return sweep;

@@ -3,6 +3,15 @@
 #include "apps/choice.hpp"
 
 namespace hemoflux::apps {
+namespace {
+
+/// The key "contact": a diameter, whose text is kept, or a part of the nodes.
+membrane::Grip read_grip(const Section& in) {
+    if (in.text("contact").empty()) return {.fraction = in.number("contact")};
+    return {.contact_diameter = in.number("contact")};
+}
+
+}  // namespace
 
 CellInput read_cell(const Section& in) {
     CellInput cell;
@@ -45,16 +54,16 @@ CellInput read_cell(const Section& in) {
     return cell;
 }
 
+TweezersInput read_tweezers(const Section& in) {
+    return {in.number("force"), read_grip(in), in.number("tolerance")};
+}
+
 MembraneInput read_membrane(const Section& in) {
     MembraneInput m;
     m.task = chosen<MembraneTask>(in.text("task"),
                                   {"relax", "stretch", "shapes", "moduli", "relax-back", "calibrate"});
     m.forces = in.numbers("forces");
-    if (in.text("contact").empty()) {
-        m.grip = {.fraction = in.number("contact")};
-    } else {
-        m.grip = {.contact_diameter = in.number("contact")};
-    }
+    m.grip = read_grip(in);
     m.dynamic = in.text("solver") == "dynamic";
     m.fluid_viscosity = in.number("fluid_viscosity");
     m.duration = in.number("duration");

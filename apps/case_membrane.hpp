@@ -6,8 +6,9 @@
 
 namespace hemoflux::apps {
 
-/// One [[cell]], and [membrane], from resolved tables.
+/// One [[cell]], [tweezers] and [membrane], from resolved tables.
 CellInput read_cell(const Section& in);
+TweezersInput read_tweezers(const Section& in);
 MembraneInput read_membrane(const Section& in);
 
 }  // namespace hemoflux::apps

@@ -177,6 +177,20 @@ Table sweep_table() {
           "false",
           "adds the observable difference: relative L2 distance of the velocity from the last run's, on the "
           "same grid"},
+         {"measured",
+          {table({"sweep.measured",
+                  "Points to show in the plot beside the computed ones.",
+                  {{"file", {path()}, "", "CSV file", true},
+                   {"x",
+                    {text()},
+                    "",
+                    "its column for the abscissa, in the unit of the first swept value",
+                    true},
+                   {"y", {text()}, "", "its column for the ordinate", true},
+                   {"label", {text()}, "", "what the plot calls them", true}}})
+               .of(Form::any)},
+          "[]",
+          "[[sweep.measured]]: measured points for the plot"},
          {"log", {choice({"none", "x", "y", "both"})}, "\"both\"", "logarithmic axes of the plot"}}};
 }
 

@@ -1,7 +1,30 @@
-// The table [membrane].
+// The tables [membrane] and [tweezers].
 #include "apps/schema.hpp"
 
 namespace hemoflux::apps {
+namespace {
+
+Key contact_key() {
+    return {"contact",
+            {number().within(1e-6, 0.5, "each end holds a part of the nodes"),
+             quantity_in("um").above(0, "a bead touches the cell")},
+            "0.02",
+            "part of the nodes that each bead holds, or the diameter of its contact"};
+}
+
+}  // namespace
+
+Table tweezers_table() {
+    return {
+        "tweezers",
+        "Pulls the first cell apart along x from the start, in the fluid.",
+        {{"force", {quantity_in("pN").within(0, 1e6, "the ends are pulled apart")}, "", "on each end", true},
+         contact_key(),
+         {"tolerance",
+          {quantity_in("um/s").above(0, "a tolerance is positive")},
+          "\"0.1 um/s\"",
+          "the run ends when both diameters change more slowly than this over two strain units"}}};
+}
 
 Table membrane_table() {
     const Form not_negative = number().within(-1e6, 1e6, "no such cell").of(Form::any);
@@ -17,11 +40,7 @@ Table membrane_table() {
           {quantity_in("pN").within(0, 1e6, "the ends are pulled apart").of(Form::any)},
           "[\"0 pN\", \"50 pN\", \"100 pN\", \"150 pN\"]",
           "pulling forces, in this order; relax-back starts from the last"},
-         {"contact",
-          {number().within(1e-6, 0.5, "each end holds a part of the nodes"),
-           quantity_in("um").above(0, "a bead touches the cell")},
-          "0.02",
-          "part of the nodes that each bead holds, or the diameter of its contact"},
+         contact_key(),
          {"solver",
           {choice({"static", "dynamic"})},
           "\"static\"",

@@ -1,8 +1,11 @@
 #include "apps/cell_observer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/cell_motion.hpp"
 #include "membrane/diagnostics.hpp"
 
 namespace hemoflux::apps {
@@ -32,9 +35,18 @@ double mean(const std::vector<double>& y) {
 }  // namespace
 
 const std::vector<std::string>& cell_columns() {
-    static const std::vector<std::string> names{
-        "x_um",     "y_um",          "z_um",       "inclination_deg", "tank_treading_deg", "taylor_d",
-        "axial_um", "transverse_um", "area_error", "volume_error",    "energy_aJ"};
+    static const std::vector<std::string> names{"x_um",
+                                                "y_um",
+                                                "z_um",
+                                                "inclination_deg",
+                                                "tank_treading_deg",
+                                                "taylor_d",
+                                                "axial_um",
+                                                "transverse_um",
+                                                "area_error",
+                                                "volume_error",
+                                                "energy_aJ",
+                                                "deformation_index_pct"};
     return names;
 }
 
@@ -60,17 +72,20 @@ std::vector<double> CellObserver::observe(membrane::Batch& cells, double strain)
         const auto positions = cells.positions(c);
         const auto m = membrane::shape_moments(cells.topology().triangles(), positions);
         const auto diameters = membrane::stretch_diameters(positions, m.centroid);
+        if (c == 0) last_ = diameters;
         const double inclination = membrane::inclination(m), taylor = membrane::taylor_deformation(m);
+        const double index = 100 * membrane::minimum_rectangle(positions).deformation_index();
         const double angle =
             membrane::tank_treading_angle(positions[static_cast<std::size_t>(marked_[c])], m.centroid);
         turned_[c] += std::remainder(angle - turned_[c], 2 * pi);
         const double area_error = m.area / area0_[c] - 1, volume_error = m.volume / volume0_[c] - 1;
         row.insert(row.end(), {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees,
                                taylor, diameters.axial, diameters.transverse, area_error, volume_error,
-                               cells.energies(c).total() * attojoule_per_unit});
+                               cells.energies(c).total() * attojoule_per_unit, index});
         inclination_.push_back(inclination);
         angle_.push_back(turned_[c]);
         taylor_.push_back(taylor);
+        index_.push_back(index);
         const Vec3d start{start_[3 * c], start_[3 * c + 1], start_[3 * c + 2]};
         volume_error_ = std::max(volume_error_, std::abs(volume_error));
         area_error_ = std::max(area_error_, std::abs(area_error));
@@ -85,21 +100,42 @@ std::vector<double> CellObserver::inclinations(std::size_t cell) const {
     return one;
 }
 
+coupling::CellMotion CellObserver::motion(std::size_t cell, double from, double to) const {
+    coupling::MotionHistory history{strain_, inclinations(cell), {}};
+    for (std::size_t i = 0; i < strain_.size(); ++i)
+        history.material_deg.push_back(angle_[i * cells_ + cell] * degrees);
+    return coupling::classify(history.window(from, to));
+}
+
+std::map<std::string, std::string> CellObserver::modes(double from, double to) const {
+    std::map<std::string, std::string> names;
+    for (std::size_t c = 0; c < cells_; ++c)
+        names[cells_ == 1 ? "mode" : fmt::format("{}.mode", c)] = coupling::name_of(motion(c, from, to).mode);
+    return names;
+}
+
 std::map<std::string, double> CellObserver::observables(double from, double to) const {
     std::map<std::string, double> sum;
     for (std::size_t c = 0; c < cells_; ++c) {
-        std::vector<double> x, inclination, angle, taylor;
+        std::vector<double> x, inclination, angle, taylor, index;
         for (std::size_t i = 0; i < strain_.size(); ++i) {
             if (!(strain_[i] >= from - 1e-9 && strain_[i] <= to + 1e-9)) continue;
             x.push_back(strain_[i]);
             inclination.push_back(inclination_[i * cells_ + c]);
             angle.push_back(angle_[i * cells_ + c]);
             taylor.push_back(taylor_[i * cells_ + c]);
+            index.push_back(index_[i * cells_ + c]);
         }
         std::map<std::string, double> one;
         one["inclination_deg"] = mean(inclination);
-        const auto [low, high] = std::minmax_element(inclination.begin(), inclination.end());
-        one["inclination_amplitude_deg"] = inclination.empty() ? NAN : (*high - *low) / 2;
+        const coupling::CellMotion m = motion(c, from, to);
+        one["inclination_amplitude_deg"] = m.amplitude_deg;
+        one["flips"] = m.flips;
+        one["treads"] = m.treads;
+        one["tumbling_period_strain"] = m.tumbling_period;
+        one["tank_treading_period_strain"] = m.tank_treading_period;
+        one["swing_period_strain"] = m.swing_period;
+        one["deformation_index_pct"] = mean(index);
         one["taylor_d"] = mean(taylor);
         const double rate = std::abs(slope(x, angle));
         one["period_strain"] = 2 * pi / rate;
@@ -120,6 +156,7 @@ void CellObserver::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("observer.inclination", inclination_);
     checkpoint.put("observer.angle", angle_);
     checkpoint.put("observer.taylor", taylor_);
+    checkpoint.put("observer.index", index_);
 }
 
 void CellObserver::load(const output::Checkpoint& checkpoint) {
@@ -134,6 +171,7 @@ void CellObserver::load(const output::Checkpoint& checkpoint) {
     inclination_ = checkpoint.array("observer.inclination", strain_.size() * cells_);
     angle_ = checkpoint.array("observer.angle", strain_.size() * cells_);
     taylor_ = checkpoint.array("observer.taylor", strain_.size() * cells_);
+    index_ = checkpoint.array("observer.index", strain_.size() * cells_);
 }
 
 }  // namespace hemoflux::apps

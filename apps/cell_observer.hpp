@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "apps/output/checkpoint.hpp"
+#include "coupling/cell_motion.hpp"
 #include "membrane/batch.hpp"
+#include "membrane/diagnostics.hpp"
 
 namespace hemoflux::apps {
 
@@ -28,6 +30,15 @@ class CellObserver {
     /// cells.
     [[nodiscard]] std::map<std::string, double> observables(double from, double to) const;
 
+    /// The motion of one cell over the window, and its name under "mode" (of several cells "CELL.mode").
+    [[nodiscard]] coupling::CellMotion motion(std::size_t cell, double from, double to) const;
+    [[nodiscard]] std::map<std::string, std::string> modes(double from, double to) const;
+
+    /// "axial_diameter_um" and "transverse_diameter_um" of the first cell in the last record.
+    [[nodiscard]] std::map<std::string, double> final_diameters() const {
+        return {{"axial_diameter_um", last_.axial}, {"transverse_diameter_um", last_.transverse}};
+    }
+
     /// Largest |V/V(0) - 1|, |A/A(0) - 1| and distance of a centroid from its start (um) seen so far.
     [[nodiscard]] double volume_error() const { return volume_error_; }
     [[nodiscard]] double area_error() const { return area_error_; }
@@ -45,8 +56,9 @@ class CellObserver {
     std::size_t cells_;
     std::vector<double> volume0_, area0_, start_, marked_;  // marked_: vertex numbers
     std::vector<double> turned_;                            // unwrapped tank-treading angle, rad
+    membrane::Diameters last_;
     double volume_error_ = 0, area_error_ = 0, centroid_distance_ = 0;
-    std::vector<double> strain_, inclination_, angle_, taylor_;  // per record, cells side by side
+    std::vector<double> strain_, inclination_, angle_, taylor_, index_;  // per record, cells side by side
 };
 
 }  // namespace hemoflux::apps

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -103,21 +104,46 @@ class CoupledRun {
             if (save || stop) files_.write_checkpoint(checkpoint(), done_);
             progress.update(
                 {done_, system_.plan.at(done_), cells * static_cast<double>(system_.fluid->evaluations())});
+            if (row && settled()) {
+                system_.plan.steps = done_;  // the run ends here
+                files_.write_checkpoint(checkpoint(), done_);
+                if (!write) frame();
+            }
             if (stop && !last) return static_cast<int>(Exit::interrupted);
         }
         return static_cast<int>(Exit::done);
     }
 
+    /// Whether the diameters of a pulled cell have come to rest: over the last two strain units neither has changed by
+    /// more than tweezers.tolerance allows.
+    [[nodiscard]] bool settled() const {
+        if (!case_.tweezers) return false;
+        constexpr double span = 2;
+        const auto& rows = files_.rows();
+        const double now = system_.plan.at(done_);
+        const auto column = [](const char* name) {
+            const auto& names = cell_columns();
+            return 3 + static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+        };
+        for (auto row = rows.rbegin(); row != rows.rend(); ++row) {
+            if ((*row)[2] > now - span) continue;
+            const double allowed = case_.tweezers->tolerance * (now - (*row)[2]) / system_.clock;
+            for (const std::size_t d : {column("axial_um"), column("transverse_um")})
+                if (!(std::abs(rows.back()[d] - (*row)[d]) < allowed)) return false;
+            return true;
+        }
+        return false;
+    }
+
     /// Strain between two frames.
     [[nodiscard]] double frame_interval() const {
-        return case_.output.interval ? *case_.output.interval * *case_.shear_rate
-                                     : case_.output.interval_strain;
+        return case_.output.interval ? *case_.output.interval * system_.clock : case_.output.interval_strain;
     }
 
     /// step: length of the step that ends here, 0 at the start.
     void record(double step) {
         const double strain = system_.plan.at(done_);
-        std::vector<double> row{static_cast<double>(done_), strain / *case_.shear_rate, strain};
+        std::vector<double> row{static_cast<double>(done_), strain / system_.clock, strain};
         // before the cells' own observer, which computes the forces anew
         const auto all = suspension_ ? suspension_->observe(strain, step) : std::vector<double>{};
         const auto cells = observer_->observe(*system_.cells, strain);
@@ -171,10 +197,13 @@ class CoupledRun {
         output::Summary s = start_summary(case_);
         const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
         s.observables = observer_->observables(window[0], window[1]);
+        s.labels = observer_->modes(window[0], window[1]);
         s.observables["strain"] = strain;
         if (suspension_)
             for (const auto& [name, value] : suspension_->observables(window[0], window[1]))
                 s.observables[name] = value;
+        if (case_.tweezers)
+            for (const auto& [name, value] : observer_->final_diameters()) s.observables[name] = value;
         s.conservation.volume = observer_->volume_error();
         s.conservation.area = observer_->area_error();
         s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;

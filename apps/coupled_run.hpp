@@ -28,6 +28,7 @@ class CoupledSystem {
     void save(output::Checkpoint& checkpoint) const;
     void load(const output::Checkpoint& checkpoint);
 
+    double clock;  ///< clock_rate() of the case
     coupling::Numerics numerics;
     StepPlan plan;  ///< in strain
     Scales scales;
@@ -39,7 +40,14 @@ class CoupledSystem {
 /// The numbers of a coupled case: capillary scaling and step. `cells` are those of the case.
 coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid);
 
-/// Total strain of a case.
+/// The immersed boundary's kernel of that name.
+coupling::Kernel kernel_of(Kernel kernel);
+
+/// Strain units per second: the shear rate, or without shear K_S/(mu R0) of the first cell, the rate at which its
+/// membrane relaxes in the suspending fluid.
+double clock_rate(const Case& c);
+
+/// Total strain of a case, in units of that clock.
 double strain_of(const Case& c);
 
 /// The conversion table and the chosen numbers, for the start-up summary.

@@ -15,19 +15,7 @@
 namespace hemoflux::apps {
 namespace {
 
-coupling::Kernel kernel_of(Kernel kernel) {
-    switch (kernel) {
-        case Kernel::phi2:
-            return coupling::Kernel::phi2;
-        case Kernel::phi3:
-            return coupling::Kernel::phi3;
-        case Kernel::phi4:
-            return coupling::Kernel::phi4;
-        case Kernel::lagrange:
-            break;
-    }
-    return coupling::Kernel::lagrange;
-}
+constexpr double metre_per_um = 1e-6;
 
 /// All cells share one topology and one set of moduli: they may differ in place, axis and cytosol only.
 void check_same_kind(const std::vector<CellInput>& cells) {
@@ -43,26 +31,6 @@ void check_same_kind(const std::vector<CellInput>& cells) {
                 "cells of one run share mesh, shape, reference and moduli, and it differs from the first",
                 "Let it differ in position, axis and cytosol_viscosity only");
     }
-}
-
-void check_supported(const Case& c) {
-    if (!c.shear_rate)
-        throw InputError("[shear] rate",
-                         "a coupled run takes its clock, the strain, from the shear rate and none is given",
-                         "Give a rate");
-    if (c.numerics.single_precision)
-        throw InputError("numerics.precision \"single\"", "cells exert a body force, which needs double",
-                         "Leave numerics.precision out");
-    if (c.numerics.gamma != 1.0)
-        throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma.value_or(0)),
-                         "preconditioning changes the path in time, and a coupled run is unsteady",
-                         "Set it to 1");
-    for (const CellInput& cell : c.cells)
-        if (cell.membrane_viscosity != 0)
-            throw InputError(
-                "cell.membrane_viscosity",
-                "the explicit membrane viscosity (6.40) is unstable in a viscous fluid at any step",
-                "Leave it out or set it to 0 in coupled runs");
 }
 
 /// Where the cells are: as listed, or packed at random.
@@ -158,15 +126,24 @@ coupling::ContactOptions contact_options(const Case& c, const membrane::Batch& c
     return o;
 }
 
+/// Membrane viscosity that the fluid carries, um^2 c.
+double surface_viscosity_in_fluid(const Case& c, const coupling::Numerics& n) {
+    if (c.coupling.membrane_viscosity != MembraneViscosityForm::fluid) return 0;
+    return n.nu * c.cells.front().membrane_viscosity / (c.fluid.viscosity * metre_per_um);
+}
+
 std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::RectilinearGrid& grid,
                                           const coupling::Numerics& n, const Scales& scales) {
     fluid::SolverOptions o;
     o.nu = n.nu;
     o.largest_nu = n.largest_nu;
     o.with_force = true;
-    o.with_viscosity = std::any_of(c.cells.begin(), c.cells.end(), [&](const CellInput& cell) {
-        return cell.cytosol_viscosity != c.fluid.viscosity;
-    });
+    const double surface_nu = surface_viscosity_in_fluid(c, n);
+    o.with_viscosity =
+        surface_nu > 0 || std::any_of(c.cells.begin(), c.cells.end(), [&](const CellInput& cell) {
+            return cell.cytosol_viscosity != c.fluid.viscosity;
+        });
+    o.largest_nu += surface_nu / (c.coupling.smoothing * grid.smallest());
     for (const CellInput& cell : c.cells)
         o.smallest_nu = std::min(o.smallest_nu > 0 ? o.smallest_nu : n.nu,
                                  n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
@@ -178,9 +155,31 @@ std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::Rectilin
     return solver;
 }
 
+/// Force along x on every node of the batch, 1e-11 N, of [tweezers]: those of a checkpoint, or by the shape as it is.
+std::vector<double> pull_of(const Case& c, const membrane::Batch& cells,
+                            const output::Checkpoint* checkpoint) {
+    if (!c.tweezers) return {};
+    std::vector<double> pull(cells.cells() * cells.stride(), 0.0);
+    if (checkpoint) return checkpoint->array("loop.pull", pull.size());
+    const auto at = cells.positions(0);
+    const auto load = membrane::pulling_loads(membrane::pulled_vertices(at, c.tweezers->grip), at.size(),
+                                              c.tweezers->force);
+    for (std::size_t v = 0; v < load.size(); ++v) pull[v] = load[v].x;
+    return pull;
+}
+
 std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numerics& n, fluid::Solver& fluid,
-                                          membrane::Batch& cells) {
+                                          membrane::Batch& cells, std::vector<double> pull) {
     coupling::LoopOptions o;
+    o.pull = std::move(pull);
+    o.surface_nu = surface_viscosity_in_fluid(c, n);
+    if (c.coupling.membrane_viscosity == MembraneViscosityForm::springs &&
+        c.cells.front().membrane_viscosity > 0) {
+        o.membrane_time = n.step_seconds / n.step * 1e5;  // the membrane counts time in 1e-5 s
+        // as stiff as the step allows, so that the elements yield in much less than a strain unit
+        constexpr double length = 1e-6, tension_unit = 1e-5;  // m, N/m
+        o.maxwell_stiffness = length * c.fluid.viscosity / n.step_seconds / tension_unit;
+    }
     o.kernel = kernel_of(c.coupling.kernel);
     o.force_factor = n.force_factor;
     o.recentre = c.coupling.recentre;
@@ -196,40 +195,15 @@ constexpr const char* fluid_names[4] = {"fluid.density", "fluid.u", "fluid.v", "
 
 }  // namespace
 
-double strain_of(const Case& c) {
-    return c.time.strain ? *c.time.strain : *c.time.duration * c.shear_rate.value_or(0);
-}
-
-coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid) {
-    check_supported(c);
-    const CellInput& cell = c.cells.front();
-    coupling::PhysicalCase p;
-    p.density = c.fluid.density;
-    p.viscosity = c.fluid.viscosity;
-    for (const CellInput& each : c.cells)
-        p.largest_cytosol = std::max(p.largest_cytosol, each.cytosol_viscosity);
-    p.shear_rate = *c.shear_rate;
-    p.shear_modulus = cell.shear_modulus;
-    p.radius = rest_state(cell).radius();
-    p.wall_distance = flow_reach(c, grid);
-    p.smallest_cell = grid.smallest();
-    coupling::NumericsChoice choice;
-    choice.lattice_viscosity = c.numerics.lattice_viscosity.value_or(0.5);
-    choice.reynolds = c.numerics.reynolds.value_or(2);
-    choice.mach = c.numerics.mach.value_or(0);
-    choice.step_strain = c.time.step ? *c.time.step * *c.shear_rate : c.numerics.step_strain.value_or(0);
-    choice.kernel = kernel_of(c.coupling.kernel);
-    choice.scheme = scheme_of(c.time.scheme);
-    return coupling::choose_numerics(p, choice);
-}
-
 CoupledSystem::CoupledSystem(const Case& c)
-    : numerics(numerics_of(c, make_grid(c.grid))), plan(strain_of(c), numerics.step_strain) {
+    : clock(clock_rate(c)),
+      numerics(numerics_of(c, make_grid(c.grid))),
+      plan(strain_of(c), numerics.step_strain) {
     const meshing::RectilinearGrid grid = make_grid(c.grid);
     numerics.step_strain = plan.step;
     numerics.step = plan.step / numerics.rate;
-    numerics.step_seconds = plan.step / *c.shear_rate;
-    scales = {numerics.velocity_um_per_s, c.fluid.viscosity * *c.shear_rate / (numerics.nu * numerics.rate),
+    numerics.step_seconds = plan.step / clock;
+    scales = {numerics.velocity_um_per_s, c.fluid.viscosity * clock / (numerics.nu * numerics.rate),
               c.fluid.viscosity / numerics.nu, c.fluid.density};
     check_same_kind(c.cells);
     const double mach = std::sqrt(3.0) * fastest_side(c) / scales.velocity_um_per_s;
@@ -254,7 +228,7 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
     } else {
         cells = make_cells(c);
     }
-    loop = make_loop(c, numerics, *fluid, *cells);
+    loop = make_loop(c, numerics, *fluid, *cells, pull_of(c, *cells, checkpoint));
     if (!checkpoint) check_places(c, fluid->grid().rectilinear(), *cells, *loop);
 }
 
@@ -273,6 +247,9 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
     checkpoint.put("loop.viscosity_z", memory.viscosity_nodes[2]);
     checkpoint.put("loop.target", {memory.target.begin(), memory.target.end()});
+    checkpoint.put("loop.pull", memory.pull);
+    checkpoint.put("loop.viscous_tension", memory.viscous.tension);
+    checkpoint.put("loop.viscous_length", memory.viscous.length);
     checkpoint.put("loop.shift", {memory.shift.begin(), memory.shift.end()});
 }
 
@@ -286,34 +263,10 @@ void CoupledSystem::load(const output::Checkpoint& checkpoint) {
                               checkpoint.array("loop.viscosity_z")};
     const auto& target = checkpoint.array("loop.target", 3);
     std::copy(target.begin(), target.end(), memory.target.begin());
+    memory.viscous = {checkpoint.array("loop.viscous_tension"), checkpoint.array("loop.viscous_length")};
     const auto& shift = checkpoint.array("loop.shift", 3);
     std::copy(shift.begin(), shift.end(), memory.shift.begin());
     loop->restore(memory);
-}
-
-std::string describe(const Case& c, const CoupledSystem& s) {
-    const coupling::Numerics& n = s.numerics;
-    const auto& axes = s.fluid->grid().rectilinear().axes;
-    std::string text = fmt::format(
-        "{}\n"
-        "  grid          {} x {} x {} cells, smallest {:.4g} um\n"
-        "  cells         {} of {} nodes, viscosity ratio {:.3g}\n"
-        "  physical      G = {:.4g} 1/s, Ca = G mu R0/K_S = {:.4g}, Re_G = {:.3g}\n"
-        "  chosen        nu/h = {:.3g}, Re_G = {:.3g}, Ma = {:.3g}, kernel and scheme as in the case\n"
-        "  step          G dt = {:.4g} ({} steps of {:.4g} s; limit: {})\n"
-        "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; stress = {:.4g} "
-        "Pa;\n"
-        "                membrane force 1e-11 N = {:.4g} lattice units\n"
-        "  errors        ",
-        c.title, axes[0].cells(), axes[1].cells(), axes[2].cells(), s.fluid->grid().rectilinear().smallest(),
-        s.cells->cells(), s.cells->vertices(), c.cells.front().cytosol_viscosity / c.fluid.viscosity,
-        *c.shear_rate, n.capillary, n.physical_reynolds, n.lattice_viscosity, n.reynolds, n.mach,
-        n.step_strain, s.plan.steps, n.step_seconds, n.step_limit, n.velocity_um_per_s, s.scales.time_s(),
-        s.scales.pressure_pa, n.force_factor);
-    for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
-    text += "(estimated)\n  exchanged     ";
-    for (const auto& field : s.loop->fields().list()) text += fmt::format("{} [{}] ", field.name, field.unit);
-    return text;
 }
 
 }  // namespace hemoflux::apps

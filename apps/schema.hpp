@@ -84,6 +84,7 @@ Table cell_table();
 Table observables_table();
 Table profile_table();
 Table membrane_table();
+Table tweezers_table();
 Table boundary_table();
 Table body_force_table();
 Table analytical_table();

@@ -114,6 +114,11 @@ int run_sweep(const fs::path& file, const RunOptions& options, bool check_only) 
         check_case(c);
         check_run(c);
     }
+    for (const MeasuredInput& m : sweep.measured) {
+        const output::Table table = output::read_table(m.file);
+        static_cast<void>(table.column(m.x));
+        static_cast<void>(table.column(m.y));
+    }
     if (check_only) {
         for (const SweepPoint& point : points) fmt::print("{}\n", label(sweep, point));
         fmt::print("# The {} runs of the sweep can be run.\n", points.size());
@@ -121,7 +126,8 @@ int run_sweep(const fs::path& file, const RunOptions& options, bool check_only) 
     }
     take_folder(options.output, base.resolved);
 
-    SweepResults results{sweep, points, std::vector<std::map<std::string, double>>(points.size())};
+    SweepResults results{sweep, points, std::vector<std::map<std::string, double>>(points.size()),
+                         std::vector<std::map<std::string, std::string>>(points.size())};
     const auto folder = [&](std::size_t i) { return options.output / fmt::format("run_{:02}", i); };
     int worst = static_cast<int>(Exit::done);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -143,6 +149,7 @@ int run_sweep(const fs::path& file, const RunOptions& options, bool check_only) 
         }
         const output::Summary summary = output::read_summary(folder(i) / "summary.json");
         results.rows[i] = summary.observables;
+        results.labels[i] = summary.labels;
         results.rows[i]["wall_s"] = summary.performance.wall_s;
         results.rows[i]["cpu_s"] = summary.performance.cpu_s;
     }

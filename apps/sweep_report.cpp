@@ -9,6 +9,7 @@
 
 #include "apps/extrapolation.hpp"
 #include "apps/output/atomic_file.hpp"
+#include "apps/output/history.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/summary.hpp"
 #include "apps/run_files.hpp"
@@ -82,7 +83,16 @@ std::vector<std::string> names_of(const SweepResults& r) {
     std::set<std::string> names;
     for (const auto& row : r.rows)
         for (const auto& [name, value] : row) names.insert(name);
+    for (const auto& row : r.labels)
+        for (const auto& [name, text] : row) names.insert(name);
     return {names.begin(), names.end()};
+}
+
+/// What run i has under a name: a label, or a number in this format.
+std::string entry(const SweepResults& r, std::size_t i, const std::string& name, const char* format) {
+    if (i < r.labels.size())
+        if (const auto label = r.labels[i].find(name); label != r.labels[i].end()) return label->second;
+    return fmt::format(fmt::runtime(format), observed(r.rows[i], name));
 }
 
 std::string csv(const SweepResults& r, const std::vector<std::string>& names) {
@@ -95,7 +105,7 @@ std::string csv(const SweepResults& r, const std::vector<std::string>& names) {
             text += (cell.find(',') == std::string::npos ? cell : "\"" + cell + "\"") + ",";
         }
         for (std::size_t n = 0; n < names.size(); ++n)
-            text += fmt::format("{}{}", observed(r.rows[i], names[n]), n + 1 < names.size() ? "," : "\n");
+            text += entry(r, i, names[n], "{}") + (n + 1 < names.size() ? "," : "\n");
     }
     return text;
 }
@@ -106,8 +116,7 @@ std::string printed(const SweepResults& r, const std::vector<std::string>& names
     cells[0].insert(cells[0].end(), names.begin(), names.end());
     for (std::size_t i = 0; i < r.points.size(); ++i) {
         for (const std::string& value : r.points[i]) cells[i + 1].push_back(bare(value));
-        for (const std::string& name : names)
-            cells[i + 1].push_back(fmt::format("{:.6g}", observed(r.rows[i], name)));
+        for (const std::string& name : names) cells[i + 1].push_back(entry(r, i, name, "{:.6g}"));
     }
     std::vector<std::size_t> width(cells[0].size(), 0);
     for (const auto& row : cells)
@@ -200,11 +209,21 @@ void report(const Case& base, const SweepResults& r, const RunOptions& options) 
         plot.log_y = r.sweep.log_y;
         for (const std::string& name : shown)
             for (const Series& s : series_of(r)) {
+                const std::vector<double> values = column(r, s, name);
+                if (std::none_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); }))
+                    continue;
                 const std::string text = s.name.empty() ? name : name + ", " + s.name;
-                plot.curves.push_back({.label = text, .x = abscissas(r, s), .y = column(r, s, name)});
-                plot.curves.push_back(
-                    {.label = "", .x = abscissas(r, s), .y = column(r, s, name), .points = true});
+                plot.curves.push_back({.label = text, .x = abscissas(r, s), .y = values});
+                plot.curves.push_back({.label = "", .x = abscissas(r, s), .y = values, .points = true});
             }
+        for (const MeasuredInput& m : r.sweep.measured) {
+            const output::Table table = output::read_table(m.file);
+            plot.curves.push_back({.label = m.label,
+                                   .x = table.column(m.x),
+                                   .y = table.column(m.y),
+                                   .points = true,
+                                   .dashed = true});
+        }
         if (const auto failed = output::plot(plot, options.output / "plot_sweep")) message = *failed;
     }
     if (options.quiet) return;

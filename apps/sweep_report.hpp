@@ -14,6 +14,7 @@ struct SweepResults {
     SweepInput sweep;
     std::vector<SweepPoint> points;
     std::vector<std::map<std::string, double>> rows;
+    std::vector<std::map<std::string, std::string>> labels = {};  ///< of every run, or none at all
 };
 
 /// Orders of convergence and limits of the observables the case asks for, by name: order_NAME and limit_NAME, with the values of the other keys

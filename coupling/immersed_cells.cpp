@@ -47,12 +47,18 @@ double longest_edge(const membrane::Batch& cells) {
 
 ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options,
                              double* nu)
-    : cells_(cells), options_(options), nodes_(cells.cells() * cells.stride()), nu_(nu) {
+    : cells_(cells), options_(options), nodes_(cells.cells() * cells.stride()), nu_(nu), pull_(options.pull) {
+    if (!options_.pull.empty() && options_.pull.size() != nodes_)
+        throw InputError(fmt::format("{} pulling forces", options_.pull.size()),
+                         fmt::format("the cells have {} nodes with their padding", nodes_),
+                         "Give one for each of them");
     place_padding(cells_);
     if (!options_.nu_inside.empty())
-        viscosity_ =
-            std::make_unique<InteriorViscosity>(grid, cells_.topology().triangles(), cells_.stride(),
-                                                options_.nu_inside, options_.nu_outside, options_.smoothing);
+        viscosity_ = std::make_unique<InteriorViscosity>(
+            grid, cells_.topology().triangles(), cells_.stride(), options_.nu_inside, options_.nu_outside,
+            options_.smoothing, MotionLimits{}, options_.surface_nu);
+    if (options_.membrane_time > 0)
+        elements_ = std::make_unique<membrane::MembraneViscosity>(cells_, options_.maxwell_stiffness);
     const auto& triangles = cells_.topology().triangles();
     const NodeBox box = node_box(grid.view());
     if (options_.contact)
@@ -89,6 +95,8 @@ void ImmersedCells::compute_forces(double /*dt*/) {
     if (contact_)
         contact_->add_forces(cells_.x().data(), cells_.y().data(), cells_.z().data(), f.component[0],
                              f.component[1], f.component[2]);
+    if (!options_.pull.empty()) add(nodes_, pull_.data(), f.component[0]);
+    if (elements_) elements_->add_forces(cells_);
     if (viscosity_) viscosity_->update(cells_.x().data(), cells_.y().data(), cells_.z().data(), nu_);
 }
 
@@ -96,6 +104,7 @@ void ImmersedCells::advance(double dt, const exchange::FieldView& velocity) {
     double *x = cells_.x().data(), *y = cells_.y().data(), *z = cells_.z().data();
     move(nodes_, dt, velocity.component[0], velocity.component[1], velocity.component[2], x, y, z);
     if (recentring_) shift_ += recentring_->apply(x, y, z);
+    if (elements_) elements_->advance(cells_, dt * options_.membrane_time);
 }
 
 Gap ImmersedCells::smallest_gap() {
@@ -122,7 +131,9 @@ void ImmersedCells::report_lost(std::size_t node) const {
 CellMemory ImmersedCells::memory() const {
     return {viscosity_ ? viscosity_->positions() : std::array<std::vector<double>, 3>{},
             target_,
-            {shift_.x, shift_.y, shift_.z}};
+            {shift_.x, shift_.y, shift_.z},
+            options_.pull,
+            elements_ ? elements_->state(cells_) : membrane::ViscousState{}};
 }
 
 void ImmersedCells::restore(const CellMemory& memory) {
@@ -136,6 +147,7 @@ void ImmersedCells::restore(const CellMemory& memory) {
             z(memory.viscosity_nodes[2]);
         viscosity_->recompute(x.data(), y.data(), z.data(), nu_);
     }
+    if (elements_ && !memory.viscous.tension.empty()) elements_->set_state(cells_, memory.viscous);
     place_padding(cells_);
 }
 

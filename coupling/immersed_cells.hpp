@@ -14,6 +14,7 @@
 #include "coupling/overlap.hpp"
 #include "coupling/viscosity.hpp"
 #include "membrane/batch.hpp"
+#include "membrane/viscosity.hpp"
 
 namespace hemoflux::coupling {
 
@@ -25,6 +26,15 @@ struct CellOptions {
     HalfWidth smoothing{};          ///< of the viscosity step
     bool recentre = false;          ///< hold the volume centroid of all cells where it is at the start
     std::optional<ContactOptions> contact = {};  ///< forces between cells, and from walls
+    std::vector<double> pull =
+        {};  ///< constant force along x on every node of the batch, 1e-11 N; empty: none
+    /// Membrane viscosity as the fluid's, raised in cells that a membrane crosses: surface viscosity over density,
+    /// um^2 c; 0: none. Needs nu_inside.
+    double surface_nu = 0;
+    /// Membrane viscosity as the membrane's own (Maxwell elements along its springs): what a lattice time (um/c) is in
+    /// 1e-5 s; 0: none.
+    double membrane_time = 0;
+    double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
 };
 
 /// What the cells' future depends on besides fluid and nodes.
@@ -32,12 +42,15 @@ struct CellMemory {
     std::array<std::vector<double>, 3> viscosity_nodes;  ///< nodes when the viscosity was last computed
     std::array<double, 3> target{};                      ///< where the centroid is held
     std::array<double, 3> shift{};                       ///< sum of all shifts so far
+    std::vector<double> pull{};                          ///< the constant load, as given
+    membrane::ViscousState viscous{};                    ///< of the membrane's Maxwell elements
     bool operator==(const CellMemory&) const = default;
 };
 
 class ImmersedCells final : public Immersed {
   public:
-    /// `grid` and `cells` must outlive it. nu: the fluid's viscosity field (device), used where nu_inside is given.
+    /// `grid` and `cells` must outlive it. InputError unless there is a pull for every node of the batch or for none.
+    /// nu: the fluid's viscosity field (device), used where nu_inside is given.
     /// Reads the nodes' positions for the centroid.
     ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options, double* nu);
     ~ImmersedCells() override;
@@ -79,6 +92,8 @@ class ImmersedCells final : public Immersed {
     CellOptions options_;
     std::size_t nodes_;
     double* nu_;
+    exchange::Buffer<double> pull_;
+    std::unique_ptr<membrane::MembraneViscosity> elements_;
     std::unique_ptr<InteriorViscosity> viscosity_;
     std::unique_ptr<Recentring> recentring_;
     std::unique_ptr<Contact> contact_;

@@ -43,7 +43,8 @@ Loop::Loop(fluid::Solver& fluid, membrane::Batch& cells, const LoopOptions& o) :
         o.nu_inside.empty() ? nullptr : fields_.read("fluid.viscosity", Shape::scalar, "um c").component[0];
     cells_ = std::make_unique<ImmersedCells>(
         grid_, cells,
-        CellOptions{o.force_factor, o.nu_inside, fluid_.options().nu, o.smoothing, o.recentre, o.contact},
+        CellOptions{o.force_factor, o.nu_inside, fluid_.options().nu, o.smoothing, o.recentre, o.contact,
+                    o.pull, o.surface_nu, o.membrane_time, o.maxwell_stiffness},
         nu);
     add(*cells_);
 }

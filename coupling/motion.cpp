@@ -16,6 +16,12 @@ struct MoveNode {
     }
 };
 
+struct AddTerm {
+    const double* term;
+    double* sum;
+    HEMOFLUX_FN void operator()(std::size_t i) const { sum[i] += term[i]; }
+};
+
 struct ShiftNode {
     Vec3d by;
     double *x, *y, *z;
@@ -58,6 +64,8 @@ struct TriangleMoments {
 };
 
 }  // namespace
+
+void add(std::size_t n, const double* term, double* sum) { exchange::for_each_index(n, AddTerm{term, sum}); }
 
 void move(std::size_t n, double dt, const double* vx, const double* vy, const double* vz, double* x,
           double* y, double* z) {

@@ -15,6 +15,9 @@ namespace hemoflux::coupling {
 void move(std::size_t n, double dt, const double* vx, const double* vy, const double* vz, double* x,
           double* y, double* z);
 
+/// sum += term for n numbers (device): a constant load on the nodes of a membrane.
+void add(std::size_t n, const double* term, double* sum);
+
 /// Finds the common volume centroid of closed surfaces and shifts them back to where it was.
 class Recentring {
   public:

@@ -21,11 +21,31 @@ struct AddCell {
     }
 };
 
+/// Adds the surface viscosity of one membrane cell.
+struct AddMembrane {
+    double* nu;
+    CellGridView grid;
+    double surface_nu;
+    HalfWidth half_width;
+    HEMOFLUX_INLINE void operator()(std::size_t at, double ratio) const {
+        const double slope = heaviside_slope(ratio);
+        if (!(slope > 0)) return;
+        const std::size_t from = at - grid.layout.origin, in_plane = from % grid.layout.plane;
+        const double x = grid.axis[0].width[in_plane % grid.layout.row],
+                     y = grid.axis[1].width[in_plane / grid.layout.row],
+                     z = grid.axis[2].width[from / grid.layout.plane];
+        const double local = x > y ? (x > z ? x : z) : (y > z ? y : z);
+        const double h = half_width.fixed > 0 ? half_width.fixed : half_width.local_cells * local;
+        nu[at] += surface_nu * slope / h;
+    }
+};
+
 /// Viscosity of one tile: all membrane cells in turn.
 struct ViscosityTile {
     SurfacesView surfaces;
     const double* nu_inside;
-    double nu_outside, low, high;
+    double nu_outside, low, high, surface_nu;
+    HalfWidth half_width;
     double* nu;
     HEMOFLUX_FN void operator()(std::size_t tile) const {
         const TileRange r = surfaces.tiles.range(tile);
@@ -36,6 +56,9 @@ struct ViscosityTile {
         TileScan scan(surfaces, tile);
         for (std::size_t c = 0; c < surfaces.cells; ++c)
             scan(c, AddCell{nu, nu_inside[c] - nu_outside, low, high});
+        if (surface_nu > 0)  // after all of them, whose sum is limited
+            for (std::size_t c = 0; c < surfaces.cells; ++c)
+                scan(c, AddMembrane{nu, surfaces.grid, surface_nu, half_width});
     }
 };
 
@@ -104,14 +127,20 @@ struct InteriorViscosity::Motion {
 
 InteriorViscosity::InteriorViscosity(const CellGrid& grid, const std::vector<std::array<int, 3>>& triangles,
                                      std::size_t vertices, const std::vector<double>& nu_inside,
-                                     double nu_outside, HalfWidth half_width, MotionLimits limits)
+                                     double nu_outside, HalfWidth half_width, MotionLimits limits,
+                                     double surface_nu)
     : distance_(grid, triangles, vertices, nu_inside.size(), half_width),
       nu_outside_(nu_outside),
+      surface_nu_(surface_nu),
+      half_width_(half_width),
       limits_(limits),
       triangles_(triangles.size()),
       nu_inside_(nu_inside),
       motion_(std::make_unique<Motion>()) {
     check(nu_outside, "outside the cells");
+    if (!(surface_nu >= 0))
+        throw InputError("surface viscosity of " + std::to_string(surface_nu), "it must not be negative",
+                         "give zero or more");
     low_ = high_ = nu_outside;
     for (const double nu : nu_inside) {
         check(nu, "inside a cell");
@@ -145,8 +174,9 @@ bool InteriorViscosity::update(const double* x, const double* y, const double* z
 void InteriorViscosity::recompute(const double* x, const double* y, const double* z, double* nu) {
     distance_.prepare(x, y, z);
     const SurfacesView surfaces = distance_.view();
-    exchange::for_each_index(surfaces.tiles.count(),
-                             ViscosityTile{surfaces, nu_inside_.data(), nu_outside_, low_, high_, nu});
+    exchange::for_each_index(
+        surfaces.tiles.count(),
+        ViscosityTile{surfaces, nu_inside_.data(), nu_outside_, low_, high_, surface_nu_, half_width_, nu});
     const double* from[3] = {x, y, z};
     for (int q = 0; q < 3; ++q)
         exchange::copy_on_device(position_[q].data(), from[q], position_[q].size() * sizeof(double));

@@ -3,7 +3,12 @@
 ///   nu = nu_ext + sum_c (nu_int,c - nu_ext) H(d_c)                                      (6.45)
 ///   H(d) = 1/2 [1 + d/h + sin(pi d/h)/pi] for |d| <= h, 0 outside, 1 inside             (6.46)
 ///
-/// limited to the range of the given viscosities where cells overlap; d is the signed distance to membrane c and h the local cell (signed_distance.hpp). The field is recomputed
+/// A membrane's own viscosity may be lent to the fluid (the proposal of section 7.6): a surface viscosity mu_s is
+/// added over the band as mu_s delta(d), whose integral across the membrane is mu_s,
+///
+///   delta(d) = dH/dd = [1 + cos(pi d/h)] / (2 h),  h as in (6.46): local_cells times the cell's largest width
+///
+/// the sum of (6.45) limited to the range of the given viscosities where cells overlap; d is the signed distance to membrane c and h the local cell (signed_distance.hpp). The field is recomputed
 /// only when a membrane has moved noticeably since it was last computed: a node by more than `normal`
 /// half-widths along its normal, or by more than `total` half-widths in any direction (a membrane that slides
 /// along itself, as in tank treading, encloses the same cells). d is then off by no more than about (normal +
@@ -29,6 +34,12 @@ HEMOFLUX_INLINE double heaviside(double ratio) {
     return 0.5 * (1 + ratio + std::sin(pi * ratio) / pi);
 }
 
+/// h delta(d), delta = dH/dd.
+HEMOFLUX_INLINE double heaviside_slope(double ratio) {
+    constexpr double pi = 3.14159265358979323846;
+    return ratio > -1 && ratio < 1 ? 0.5 * (1 + std::cos(pi * ratio)) : 0;
+}
+
 /// How far a node may move before the field is recomputed, in half-widths of the band. Zero: recompute
 /// always.
 struct MotionLimits {
@@ -39,11 +50,11 @@ struct MotionLimits {
 /// Keeps the viscosity of the fluid cells in step with the membranes.
 class InteriorViscosity {
   public:
-    /// Membranes as in SignedDistance; nu_inside has one value per membrane cell. Viscosities must be
-    /// positive (InputError).
+    /// Membranes as in SignedDistance; nu_inside has one value per membrane cell; surface_nu: surface viscosity over
+    /// density (um^2 c). Viscosities must be positive, surface_nu not negative (InputError).
     InteriorViscosity(const CellGrid& grid, const std::vector<std::array<int, 3>>& triangles,
                       std::size_t vertices, const std::vector<double>& nu_inside, double nu_outside,
-                      HalfWidth half_width = {}, MotionLimits limits = {});
+                      HalfWidth half_width = {}, MotionLimits limits = {}, double surface_nu = 0);
     ~InteriorViscosity();
 
     /// Recomputes the interior cells of the padded field nu (device) if a node of x, y, z (device, um,
@@ -63,7 +74,8 @@ class InteriorViscosity {
     struct Motion;
 
     SignedDistance distance_;
-    double nu_outside_, low_, high_;
+    double nu_outside_, low_, high_, surface_nu_;
+    HalfWidth half_width_;
     MotionLimits limits_;
     std::size_t triangles_, recomputations_ = 0;
     /// Triangles around each vertex: vertex v has ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1] - 1].

@@ -33,6 +33,7 @@ inline constexpr double maxwell_stiffness = 5;
 struct ViscousState {
     std::vector<double> tension;  ///< q, 1e-11 N
     std::vector<double> length;   ///< L at the last advance(), um
+    bool operator==(const ViscousState&) const = default;
 };
 
 /// The Maxwell elements of all springs of a batch.

@@ -48,6 +48,8 @@ Summary from_json(const Json::Value& root) {
     s.backend = root["backend"].asString();
     s.threads = root["threads"].asInt();
     s.observables = to_map(root["observables"]);
+    for (const std::string& name : root["labels"].getMemberNames())
+        s.labels[name] = root["labels"][name].asString();
     for (const std::string& name : root["references"].getMemberNames()) {
         const Json::Value& r = root["references"][name];
         s.references[name] = {to_optional(r["reference"]), to_optional(r["low"]), to_optional(r["high"]),
@@ -76,6 +78,8 @@ std::string to_json(const Summary& s) {
     root["backend"] = s.backend;
     root["threads"] = s.threads;
     root["observables"] = object(s.observables);
+    Json::Value& labels = root["labels"] = Json::Value(Json::objectValue);
+    for (const auto& [name, text] : s.labels) labels[name] = text;
     Json::Value& references = root["references"] = Json::Value(Json::objectValue);
     for (const auto& [name, r] : s.references) {
         Json::Value& out = references[name];

@@ -25,6 +25,7 @@ struct Summary {
     std::string backend;
     int threads = 1;
     std::map<std::string, double> observables;
+    std::map<std::string, std::string> labels;    ///< what is no number: how a cell moves
     std::map<std::string, Reference> references;  ///< by the name of the observable
 
     struct Conservation {

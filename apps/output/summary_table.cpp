@@ -52,6 +52,7 @@ std::string to_table(const Summary& s) {
                                    s.threads, s.threads == 1 ? "" : "s");
     add_references(text, s);
     std::string rest;
+    for (const auto& [name, label] : s.labels) rest += fmt::format("  {:<33} {}\n", name, label);
     for (const auto& [name, value] : s.observables)
         if (!s.references.contains(name)) rest += fmt::format("  {:<33} {:.6g}\n", name, value);
     if (!rest.empty()) text += "Observables\n" + rest;

@@ -89,7 +89,6 @@ TEST_F(CommandLine, BadSurfaces) {
 }
 
 TEST_F(CommandLine, WhatTheSolversRefuseIsBadInputToo) {
-    expect_bad("axis = [0, 1, 0]", "membrane_viscosity = \"0.1 uPa s m\"", "membrane_viscosity");
     expect_bad("lattice_viscosity", "gamma = 0.5\nlattice_viscosity", "gamma");
     expect_bad("[output]", "[output]\nwindow_strain = [90, 99]", "window_strain");
     expect_bad("[coupling]", "[[cell]]\nnodes = 642\nposition = [\"0 um\", \"3 um\", \"0 um\"]\n[coupling]",

@@ -21,7 +21,8 @@ TEST(Sweep, ListsGoTogetherOrAsProduct) {
                      .observables = {},
                      .order = {},
                      .extrapolate = {},
-                     .order_range = {}};
+                     .order_range = {},
+                     .measured = {}};
     EXPECT_EQ(sweep_points(sweep), (std::vector<SweepPoint>{{"1", "3"}, {"2", "4"}}));
     sweep.product = true;
     EXPECT_EQ(sweep_points(sweep), (std::vector<SweepPoint>{{"1", "3"}, {"2", "3"}, {"1", "4"}, {"2", "4"}}));
@@ -44,7 +45,8 @@ TEST(Sweep, OrderIsTheSlopeOfTheLogarithms) {
                .observables = {},
                .order = {"error"},
                .extrapolate = {},
-               .order_range = {}};
+               .order_range = {},
+               .measured = {}};
     r.points = sweep_points(r.sweep);
     r.rows = {{{"error", 0.4}}, {{"error", 0.1}}, {{"error", 0.8}}, {{"error", 0.1}}};
     const auto orders = sweep_orders(r);

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
@@ -20,9 +22,13 @@ struct Partners {
     double step = 0;
 
     explicit Partners(bool periodic, bool recentre, std::size_t count = 1, double apart = 3.5,
-                      std::optional<ContactOptions> contact = {}) {
+                      std::optional<ContactOptions> contact = {},
+                      const std::function<void(LoopOptions&, const membrane::Batch&)>& change = {},
+                      double membrane_viscosity = 0) {
         static const membrane::Cell cell = membrane::make_discocyte(2);
-        cells = std::make_unique<membrane::Batch>(cell.topology, cell.parameters, cell.reference, count);
+        membrane::Parameters parameters = cell.parameters;
+        parameters.network.viscosity = membrane_viscosity;
+        cells = std::make_unique<membrane::Batch>(cell.topology, parameters, cell.reference, count);
         for (std::size_t c = 0; c < count; ++c) {
             std::vector<Vec3d> positions = cell.positions;
             for (Vec3d& r : positions) r = Vec3d{r.x, r.z + apart * static_cast<double>(c), -r.y};
@@ -48,6 +54,7 @@ struct Partners {
         l.nu_inside.assign(count, 0.3 * nu);
         l.recentre = recentre;
         l.contact = contact;
+        if (change) change(l, *cells);
         loop = std::make_unique<Loop>(*fluid, *cells, l);
         step = 0.5 * h;
     }
@@ -131,6 +138,99 @@ TEST(Loop, RecentringHoldsTheCentroid) {
     const auto m = membrane::shape_moments(p.cells->topology().triangles(), p.cells->positions(0));
     EXPECT_LT(norm(m.centroid), 1e-12);
     EXPECT_GT(norm(p.loop->total_shift()), 0);
+}
+
+namespace {
+
+/// Pulls the first cell apart along x, at its outermost two nodes.
+void pull_apart(LoopOptions& l, const membrane::Batch& cells) {
+    l.pull.assign(cells.stride(), 0.0);
+    const auto at = cells.positions(0);
+    const auto [left, right] =
+        std::minmax_element(at.begin(), at.end(), [](const Vec3d& a, const Vec3d& b) { return a.x < b.x; });
+    l.pull[static_cast<std::size_t>(left - at.begin())] = -1;
+    l.pull[static_cast<std::size_t>(right - at.begin())] = 1;
+}
+
+double length_along_x(const membrane::Batch& cells) {
+    const auto at = cells.positions(0);
+    const auto [left, right] =
+        std::minmax_element(at.begin(), at.end(), [](const Vec3d& a, const Vec3d& b) { return a.x < b.x; });
+    return right->x - left->x;
+}
+
+}  // namespace
+
+TEST(Loop, AConstantPullStretchesTheCellAndGivesNoMomentum) {
+    Partners free(true, false), pulled(true, false, 1, 0, {}, pull_apart);
+    const double start = length_along_x(*free.cells);
+    for (int s = 0; s < 60; ++s) {
+        free.loop->step(free.step);
+        pulled.loop->step(pulled.step);
+    }
+    EXPECT_NEAR(length_along_x(*free.cells), start, 0.01);
+    EXPECT_GT(length_along_x(*pulled.cells), start + 0.05);
+    EXPECT_LT(std::abs(pulled.fluid->largest_speed()), 0.1);
+    const auto u = pulled.fluid->state().interior(pulled.fluid->state().view().q[1]),
+               rho = pulled.fluid->state().interior(pulled.fluid->state().view().q[0]);
+    const auto dy = pulled.fluid->grid().rectilinear().axes[1].widths();
+    double momentum = 0, magnitude = 0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+        momentum += dy[i / 16 % 18] * rho[i] * u[i];
+        magnitude += dy[i / 16 % 18] * std::abs(rho[i] * u[i]);
+    }
+    EXPECT_LT(std::abs(momentum), 1e-11 * magnitude);
+    EXPECT_THROW(Partners(true, false, 1, 0, {},
+                          [](LoopOptions& l, const membrane::Batch&) { l.pull.assign(7, 0.0); }),
+                 InputError);
+}
+
+// Both forms of membrane viscosity slow the stretch, the more the larger it is, and neither stops it.
+TEST(Loop, MembraneViscositySlowsTheStretch) {
+    const auto stretch = [](double springs, double fluid) {
+        Partners p(
+            true, false, 1, 0, {},
+            [&](LoopOptions& l, const membrane::Batch& cells) {
+                pull_apart(l, cells);
+                if (springs > 0) l.membrane_time = 1;
+                l.surface_nu = fluid;
+            },
+            springs);
+        const double start = length_along_x(*p.cells);
+        for (int s = 0; s < 40; ++s) p.loop->step(p.step);
+        p.loop->check();
+        return length_along_x(*p.cells) - start;
+    };
+    const double none = stretch(0, 0);
+    EXPECT_LT(stretch(2, 0), 0.99 * none);
+    EXPECT_LT(stretch(20, 0), 0.97 * stretch(2, 0));
+    EXPECT_GT(stretch(20, 0), 0.1 * none);
+    EXPECT_LT(stretch(0, 0.3), 0.95 * none);
+    EXPECT_GT(stretch(0, 0.3), 0.1 * none);
+}
+
+TEST(Loop, MembraneViscosityContinuesBitwiseFromItsMemory) {
+    const auto viscous = [](LoopOptions& l, const membrane::Batch& cells) {
+        pull_apart(l, cells);
+        l.membrane_time = 1;
+    };
+    Partners one(false, true, 1, 0, {}, viscous, 50), two(false, true, 1, 0, {}, viscous, 50);
+    for (int s = 0; s < 20; ++s) one.loop->step(one.step);
+    for (int q = 0; q < 4; ++q)
+        two.fluid->state().set_interior(two.fluid->state().view().q[q],
+                                        one.fluid->state().interior(one.fluid->state().view().q[q]));
+    two.cells->x().assign(one.cells->x().to_host());
+    two.cells->y().assign(one.cells->y().to_host());
+    two.cells->z().assign(one.cells->z().to_host());
+    const CellMemory memory = one.loop->memory();
+    EXPECT_GT(*std::max_element(memory.viscous.tension.begin(), memory.viscous.tension.end()), 0);
+    two.loop->restore(memory);
+    EXPECT_EQ(two.loop->memory(), memory);
+    for (int s = 0; s < 20; ++s) {
+        one.loop->step(one.step);
+        two.loop->step(two.step);
+    }
+    EXPECT_EQ(one.state(), two.state());
 }
 
 TEST(Loop, TwoCellsAreCarriedByTheFlow) {

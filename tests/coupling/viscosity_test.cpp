@@ -71,6 +71,32 @@ TEST(Viscosity, VolumeInsideIsThatOfTheSurface) {
     }
 }
 
+// The proposal of section 7.6: the integral of the added viscosity over the band is surface viscosity times area.
+TEST(Viscosity, SurfaceViscosityIsLentToTheCellsThatTheMembraneCrosses) {
+    const auto axis =
+        meshing::plateau_axis(-6, 6, 30, 10, 0.2);  // the sphere reaches into its stretched part
+    const meshing::RectilinearGrid grid{{axis, axis, axis}};
+    const CellGrid cells(grid, {true, false, true});
+    const auto layout = cells.view().layout;
+    const double surface_nu = 0.4;
+    for (const double radius : {2.0, 3.2}) {
+        const auto mesh = meshing::icosphere(4, radius);
+        InteriorViscosity viscosity(cells, mesh.triangles, mesh.vertices.size(), {1.0}, 1.0, {}, {},
+                                    surface_nu);
+        exchange::Buffer<double> nu(layout.size);
+        const test::Points p(mesh.vertices);
+        viscosity.update(p[0], p[1], p[2], nu.data());
+        const auto host = nu.to_host();
+        const double expected = surface_nu * 4 * std::acos(-1.0) * radius * radius;
+        EXPECT_NEAR(inside_volume(grid, layout, host, 2.0, 1.0), expected, 0.05 * expected) << radius;
+        EXPECT_EQ(host[layout.at(15, 15, 15)], 1.0);
+        EXPECT_EQ(host[layout.at(0, 0, 0)], 1.0);
+    }
+    const auto mesh = meshing::icosphere(2, 2.0);
+    EXPECT_THROW(InteriorViscosity(cells, mesh.triangles, mesh.vertices.size(), {1.0}, 1.0, {}, {}, -1),
+                 InputError);
+}
+
 // Two cells with their own viscosity, one of them across the corner of the periodic box.
 TEST(Viscosity, EveryCellHasItsOwn) {
     const auto axis = meshing::uniform_axis(-6, 6, 32);

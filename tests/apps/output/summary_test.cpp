@@ -28,6 +28,7 @@ Summary example() {
     s.performance.steps = 4200;
     s.performance.peak_rss_mib = INFINITY;
     s.errors_estimated["time_step"] = 0.01;
+    s.labels["mode"] = "tank treading";
     return s;
 }
 
@@ -49,8 +50,8 @@ using Keys = std::set<std::string>;
 TEST_F(SummaryTest, HasTheSameShapeForEveryRun) {
     for (const Summary& summary : {example(), Summary{}}) {
         const Tree tree = parse(summary);
-        EXPECT_EQ(keys(tree), (Keys{"case", "version", "backend", "threads", "observables", "references",
-                                    "conservation", "performance", "errors_estimated"}));
+        EXPECT_EQ(keys(tree), (Keys{"case", "version", "backend", "threads", "observables", "labels",
+                                    "references", "conservation", "performance", "errors_estimated"}));
         EXPECT_EQ(keys(tree.get_child("conservation")),
                   (Keys{"volume", "area", "mean_density_per_strain", "centroid_um"}));
         EXPECT_EQ(keys(tree.get_child("performance")),
@@ -85,6 +86,7 @@ TEST_F(SummaryTest, ReadsBackExactly) {
     EXPECT_TRUE(std::isnan(r.conservation.area));
     EXPECT_EQ(r.performance.steps, 4200);
     EXPECT_EQ(r.errors_estimated.at("time_step"), 0.01);
+    EXPECT_EQ(r.labels.at("mode"), "tank treading");
     EXPECT_EQ(to_json(r), to_json([&] {
                   Summary finite = s;
                   finite.performance.peak_rss_mib = NAN;

@@ -1,0 +1,101 @@
+// The numbers of a coupled run: its clock, the capillary scaling, and the start-up summary of both.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "apps/case_suspension.hpp"
+#include "apps/cell_surface.hpp"
+#include "apps/coupled_run.hpp"
+#include "exchange/error.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+constexpr double metre_per_um = 1e-6;
+
+void check_supported(const Case& c) {
+    if (c.numerics.single_precision)
+        throw InputError("numerics.precision \"single\"", "cells exert a body force, which needs double",
+                         "Leave numerics.precision out");
+    if (c.numerics.gamma != 1.0)
+        throw InputError(fmt::format("numerics.gamma {}", c.numerics.gamma.value_or(0)),
+                         "preconditioning changes the path in time, and a coupled run is unsteady",
+                         "Set it to 1");
+    if (c.tweezers && c.cells.size() > 1)
+        throw InputError(fmt::format("[tweezers] with {} cells", c.cells.size()), "they hold one",
+                         "Keep one [[cell]]");
+}
+
+}  // namespace
+
+coupling::Kernel kernel_of(Kernel kernel) {
+    switch (kernel) {
+        case Kernel::phi2:
+            return coupling::Kernel::phi2;
+        case Kernel::phi3:
+            return coupling::Kernel::phi3;
+        case Kernel::phi4:
+            return coupling::Kernel::phi4;
+        case Kernel::lagrange:
+            break;
+    }
+    return coupling::Kernel::lagrange;
+}
+
+double clock_rate(const Case& c) {
+    if (c.shear_rate) return *c.shear_rate;
+    const CellInput& cell = c.cells.front();
+    return cell.shear_modulus / (c.fluid.viscosity * rest_state(cell).radius() * metre_per_um);
+}
+
+double strain_of(const Case& c) { return c.time.strain ? *c.time.strain : *c.time.duration * clock_rate(c); }
+
+coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid) {
+    check_supported(c);
+    const CellInput& cell = c.cells.front();
+    coupling::PhysicalCase p;
+    p.density = c.fluid.density;
+    p.viscosity = c.fluid.viscosity;
+    for (const CellInput& each : c.cells)
+        p.largest_cytosol = std::max(p.largest_cytosol, each.cytosol_viscosity);
+    p.shear_rate = clock_rate(c);
+    p.shear_modulus = cell.shear_modulus;
+    p.radius = rest_state(cell).radius();
+    p.wall_distance = c.shear_rate ? flow_reach(c, grid) : p.radius;
+    p.smallest_cell = grid.smallest();
+    coupling::NumericsChoice choice;
+    choice.lattice_viscosity = c.numerics.lattice_viscosity.value_or(0.5);
+    choice.reynolds = c.numerics.reynolds.value_or(2);
+    choice.mach = c.numerics.mach.value_or(0);
+    choice.step_strain = c.time.step ? *c.time.step * p.shear_rate : c.numerics.step_strain.value_or(0);
+    choice.kernel = kernel_of(c.coupling.kernel);
+    choice.scheme = scheme_of(c.time.scheme);
+    return coupling::choose_numerics(p, choice);
+}
+
+std::string describe(const Case& c, const CoupledSystem& s) {
+    const coupling::Numerics& n = s.numerics;
+    const auto& axes = s.fluid->grid().rectilinear().axes;
+    std::string text = fmt::format(
+        "{}\n"
+        "  grid          {} x {} x {} cells, smallest {:.4g} um\n"
+        "  cells         {} of {} nodes, viscosity ratio {:.3g}\n"
+        "  physical      {} = {:.4g} 1/s, Ca = G mu R0/K_S = {:.4g}, Re_G = {:.3g}\n"
+        "  chosen        nu/h = {:.3g}, Re_G = {:.3g}, Ma = {:.3g}, kernel and scheme as in the case\n"
+        "  step          G dt = {:.4g} ({} steps of {:.4g} s; limit: {})\n"
+        "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; stress = {:.4g} "
+        "Pa;\n"
+        "                membrane force 1e-11 N = {:.4g} lattice units\n"
+        "  errors        ",
+        c.title, axes[0].cells(), axes[1].cells(), axes[2].cells(), s.fluid->grid().rectilinear().smallest(),
+        s.cells->cells(), s.cells->vertices(), c.cells.front().cytosol_viscosity / c.fluid.viscosity,
+        c.shear_rate ? "G" : "no shear, clock G = K_S/(mu R0)", s.clock, n.capillary, n.physical_reynolds,
+        n.lattice_viscosity, n.reynolds, n.mach, n.step_strain, s.plan.steps, n.step_seconds, n.step_limit,
+        n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa, n.force_factor);
+    for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
+    text += "(estimated)\n  exchanged     ";
+    for (const auto& field : s.loop->fields().list()) text += fmt::format("{} [{}] ", field.name, field.unit);
+    return text;
+}
+
+}  // namespace hemoflux::apps
