@@ -63,7 +63,13 @@ class CoupledRun {
             first_density_ = system_.fluid->mean_density();
         }
         done_ = files_.first_step();
-        files_.start_history(history_columns(system_.cells->cells()));
+        std::vector<std::string> columns = history_columns(system_.cells->cells());
+        if (system_.bodies) {
+            body_column_ = columns.size();
+            const auto more = system_.bodies->columns();
+            columns.insert(columns.end(), more.begin(), more.end());
+        }
+        files_.start_history(columns);
         files_.start_series(system_.plan.at(done_));
         if (!files_.restart()) {
             record();
@@ -115,11 +121,15 @@ class CoupledRun {
         row.insert(row.end(), cells.begin(), cells.end());
         row.insert(row.end(), {system_.fluid->mean_density(), system_.fluid->residual_norm().density,
                                system_.numerics.step_seconds});
+        if (system_.bodies) {
+            const auto bodies = system_.bodies->row();
+            row.insert(row.end(), bodies.begin(), bodies.end());
+        }
         files_.add_row(row);
     }
 
     void frame() {
-        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(),
+        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(), system_.bodies.get(),
                            system_.plan.at(done_));
     }
 
@@ -161,6 +171,8 @@ class CoupledRun {
         const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
         s.observables = observer_->observables(window[0], window[1]);
         s.observables["strain"] = strain;
+        if (system_.bodies)
+            s.observables.merge(system_.bodies->observables(*system_.fluid, files_.rows(), body_column_));
         s.conservation.volume = observer_->volume_error();
         s.conservation.area = observer_->area_error();
         s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;
@@ -204,6 +216,7 @@ class CoupledRun {
     RunFiles files_;
     std::optional<CellObserver> observer_;
     long long done_ = 0, good_step_ = 0;
+    std::size_t body_column_ = 0;
     output::Checkpoint good_;
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;
 };

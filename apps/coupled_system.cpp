@@ -15,20 +15,6 @@
 namespace hemoflux::apps {
 namespace {
 
-coupling::Kernel kernel_of(Kernel kernel) {
-    switch (kernel) {
-        case Kernel::phi2:
-            return coupling::Kernel::phi2;
-        case Kernel::phi3:
-            return coupling::Kernel::phi3;
-        case Kernel::phi4:
-            return coupling::Kernel::phi4;
-        case Kernel::lagrange:
-            break;
-    }
-    return coupling::Kernel::lagrange;
-}
-
 /// All cells share one topology and one set of moduli: they may differ in place, axis and cytosol only.
 void check_same_kind(const std::vector<CellInput>& cells) {
     for (std::size_t i = 1; i < cells.size(); ++i) {
@@ -256,6 +242,8 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
     }
     loop = make_loop(c, numerics, *fluid, *cells);
     if (!checkpoint) check_places(c, fluid->grid().rectilinear(), *cells, *loop);
+    if (!c.bodies.empty())
+        bodies = std::make_unique<RigidBodies>(c, scales, fluid->grid().rectilinear(), *loop);
 }
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {
@@ -272,6 +260,7 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("loop.viscosity_x", memory.viscosity_nodes[0]);
     checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
     checkpoint.put("loop.viscosity_z", memory.viscosity_nodes[2]);
+    if (bodies) bodies->save(checkpoint);
     checkpoint.put("loop.target", {memory.target.begin(), memory.target.end()});
     checkpoint.put("loop.shift", {memory.shift.begin(), memory.shift.end()});
 }
@@ -281,6 +270,7 @@ void CoupledSystem::load(const output::Checkpoint& checkpoint) {
     for (int q = 0; q < 4; ++q)
         fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
     load_positions(*cells, checkpoint);
+    if (bodies) bodies->load(checkpoint);
     coupling::CellMemory memory;
     memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
                               checkpoint.array("loop.viscosity_z")};
@@ -311,7 +301,9 @@ std::string describe(const Case& c, const CoupledSystem& s) {
         n.step_strain, s.plan.steps, n.step_seconds, n.step_limit, n.velocity_um_per_s, s.scales.time_s(),
         s.scales.pressure_pa, n.force_factor);
     for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
-    text += "(estimated)\n  exchanged     ";
+    text += "(estimated)";
+    if (s.bodies) text += s.bodies->describe();
+    text += "\n  exchanged     ";
     for (const auto& field : s.loop->fields().list()) text += fmt::format("{} [{}] ", field.name, field.unit);
     return text;
 }
