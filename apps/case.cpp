@@ -18,7 +18,7 @@ namespace {
 
 TimeInput read_time(const Section& in) {
     return {chosen<TimeScheme>(in.text("scheme"), {"euler", "rk4", "factored"}), in.maybe("strain"),
-            in.maybe("duration"), in.maybe("step")};
+            in.maybe("duration"), in.maybe("step"), in.maybe("steady")};
 }
 
 NumericsInput read_numerics(const Section& in) {
@@ -88,6 +88,9 @@ Case read_values(const toml::table& values) {
     }
     for (const Section& cell : in.tables("cell")) {
         c.cells.push_back(read_cell(cell));
+    }
+    for (const Section& body : in.tables("body")) {
+        c.bodies.push_back(read_rigid(body));
     }
     if (const auto coupling = in.table("coupling")) {
         c.coupling = {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/case_observables.hpp"
+#include "apps/case_rigid.hpp"
 #include "membrane/shapes.hpp"
 #include "membrane/stretch.hpp"
 #include "meshing/rectilinear.hpp"
@@ -18,7 +19,7 @@ namespace hemoflux::apps {
 using Triple = std::array<double, 3>;
 
 enum class CaseKind { coupled, fluid, membrane };
-enum class InitialFlow { rest, shear, analytical, channel, uniform };
+enum class InitialFlow { rest, shear, analytical, channel, uniform, inflow };
 enum class AxisKind { uniform, plateau, chebyshev, given };
 enum class VelocityCondition {
     periodic,
@@ -164,6 +165,7 @@ struct TimeInput {
     std::optional<double> strain;
     std::optional<double> duration;  ///< s
     std::optional<double> step;      ///< s; empty: numerics.step_strain, or chosen
+    std::optional<double> steady;    ///< change of the velocity below which a run ends
     bool operator==(const TimeInput&) const = default;
 };
 
@@ -287,6 +289,7 @@ struct Case {
     std::optional<AnalyticalInput> analytical;
     std::optional<SweepInput> sweep;  ///< not part of `resolved`: a run is one point
     std::vector<CellInput> cells;
+    std::vector<RigidInput> bodies;
     CouplingInput coupling;
     std::optional<ContactInput> contact;
     std::optional<PackingInput> packing;  ///< `cells` then holds as many alike as fit, not placed yet

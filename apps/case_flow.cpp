@@ -16,6 +16,8 @@ FluidInput read_fluid(const Section& in, bool sheared) {
         fluid.initial = InitialFlow::analytical;
     else if (initial == "channel")
         fluid.initial = InitialFlow::channel;
+    else if (initial == "inflow")
+        fluid.initial = InitialFlow::inflow;
     else if (initial == "shear" || (initial == "auto" && sheared))
         fluid.initial = InitialFlow::shear;
     else if (initial == "uniform") {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "apps/case_rigid.hpp"
 #include "apps/schema.hpp"
 #include "apps/toml_input.hpp"
 #include "apps/units.hpp"
@@ -175,6 +176,15 @@ void check_time(const toml::table& values, const std::string& name) {
         refuse(name, "fluid.initial is \"shear\" without [shear]", "there is no shear rate",
                "Add [shear] with a rate");
     }
+    if (fluid && fluid->text("initial") == "inflow") {
+        const toml::node_view<const toml::node> side = values["boundary"]["x-"];
+        const std::string velocity =
+            side["velocity"].value_or(std::string(side["velocity"].is_array() ? "vector" : ""));
+        if (velocity.empty() || velocity == "zero-gradient" || velocity == "symmetry") {
+            refuse(name, "fluid.initial is \"inflow\"", "the side x- has no given velocity",
+                   "Give boundary.\"x-\" a velocity, or start at rest");
+        }
+    }
     const std::vector<double> window = top.table("output")->numbers("window_strain");
     if (!window.empty() && !(window[0] >= 0 && window[0] < window[1])) {
         refuse(name, fmt::format("output.window_strain = [{}, {}]", window[0], window[1]),
@@ -269,6 +279,7 @@ void check_rules(const toml::table& resolved, const std::string& name) {
     check_observables(resolved, name);
     check_references(resolved, name);
     check_flow_rules(resolved, name);
+    check_rigid_rules(Section(case_schema(), resolved), name);
 }
 
 }  // namespace hemoflux::apps

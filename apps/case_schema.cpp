@@ -20,10 +20,11 @@ Table fluid_table() {
           "dynamic viscosity of the suspending fluid",
           true},
          {"initial",
-          {choice({"auto", "rest", "uniform", "shear", "channel", "analytical"})},
+          {choice({"auto", "rest", "uniform", "shear", "channel", "inflow", "analytical"})},
           "\"auto\"",
           "flow at the start; auto: shear where [shear] is given, channel where a force drives cells between "
-          "walls, else rest; channel: the steady flow of [body_force]; analytical: as [analytical] at t = "
+          "walls, else rest; channel: the steady flow of [body_force]; inflow: the velocity of the side x- "
+          "everywhere, with the pressure drop of its friction; analytical: as [analytical] at t = "
           "0"},
          {"initial_velocity",
           {quantity_in("um/s").of(3)},
@@ -181,10 +182,11 @@ const Table& case_schema() {
          {"analytical", {table(analytical_table())}, "", "kind fluid"},
          {"sweep", {table(sweep_table())}, "", "optional"},
          {"cell", {table(cell_table()).of(Form::any)}, "", "kinds coupled and membrane"},
+         {"body", {table(rigid_body_table()).of(Form::any)}, "", "kinds fluid and coupled"},
          {"coupling",
           {table(
               {"coupling",
-               "Immersed boundary between cells and fluid.",
+               "Immersed boundary between fluid and what is immersed in it.",
                {{"kernel",
                  {choice({"lagrange", "phi2", "phi3", "phi4"})},
                  "\"lagrange\"",
@@ -200,7 +202,7 @@ const Table& case_schema() {
                  "how cell.membrane_viscosity acts: along the membrane's springs, or by raising the fluid's "
                  "viscosity in the cells that the membrane crosses"}}})},
           "{}",
-          "kind coupled"},
+          "kind coupled, and [[body]]"},
          {"contact",
           {table(contact_table())},
           "",
@@ -226,7 +228,13 @@ const Table& case_schema() {
                 {"step",
                  {automatic(), quantity_in("s").above(0, "a time step is positive")},
                  "\"auto\"",
-                 "time step; auto: chosen for stability, or numerics.step_strain"}}})},
+                 "time step; auto: chosen for stability, or numerics.step_strain"},
+                {"steady",
+                 {number().within(1e-14, 1, "a share")},
+                 "",
+                 "kind fluid: ends the run when in a hundredth of its length the velocity changes by less "
+                 "than "
+                 "this share (relative L2)"}}})},
           "",
           "kinds coupled and fluid"},
          {"numerics", {table(numerics_table())}, "{}", "optional"},

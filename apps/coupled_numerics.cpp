@@ -93,7 +93,9 @@ std::string describe(const Case& c, const CoupledSystem& s) {
         n.lattice_viscosity, n.reynolds, n.mach, n.step_strain, s.plan.steps, n.step_seconds, n.step_limit,
         n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa, n.force_factor);
     for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
-    text += "(estimated)\n  exchanged     ";
+    text += "(estimated)";
+    if (s.bodies) text += s.bodies->describe();
+    text += "\n  exchanged     ";
     for (const auto& field : s.loop->fields().list()) text += fmt::format("{} [{}] ", field.name, field.unit);
     return text;
 }

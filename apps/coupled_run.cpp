@@ -68,8 +68,14 @@ class CoupledRun {
             first_density_ = system_.fluid->mean_density();
         }
         done_ = files_.first_step();
-        files_.start_history(history_columns(
-            system_.cells->cells(), suspension_ ? suspension_->columns() : std::vector<std::string>{}));
+        std::vector<std::string> columns = history_columns(
+            system_.cells->cells(), suspension_ ? suspension_->columns() : std::vector<std::string>{});
+        if (system_.bodies) {
+            body_column_ = columns.size();
+            const auto more = system_.bodies->columns();
+            columns.insert(columns.end(), more.begin(), more.end());
+        }
+        files_.start_history(columns);
         files_.start_series(system_.plan.at(done_));
         if (!files_.restart()) {
             record(0);
@@ -151,11 +157,15 @@ class CoupledRun {
         row.insert(row.end(), all.begin(), all.end());
         row.insert(row.end(), {system_.fluid->mean_density(), system_.fluid->residual_norm().density,
                                system_.numerics.step_seconds});
+        if (system_.bodies) {
+            const auto bodies = system_.bodies->row();
+            row.insert(row.end(), bodies.begin(), bodies.end());
+        }
         files_.add_row(row);
     }
 
     void frame() {
-        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(),
+        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(), system_.bodies.get(),
                            system_.plan.at(done_));
     }
 
@@ -204,6 +214,8 @@ class CoupledRun {
                 s.observables[name] = value;
         if (case_.tweezers)
             for (const auto& [name, value] : observer_->final_diameters()) s.observables[name] = value;
+        if (system_.bodies)
+            s.observables.merge(system_.bodies->observables(*system_.fluid, files_.rows(), body_column_));
         s.conservation.volume = observer_->volume_error();
         s.conservation.area = observer_->area_error();
         s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;
@@ -248,6 +260,7 @@ class CoupledRun {
     std::optional<CellObserver> observer_;
     std::optional<SuspensionObserver> suspension_;
     long long done_ = 0, good_step_ = 0;
+    std::size_t body_column_ = 0;
     output::Checkpoint good_;
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;
 };

@@ -6,6 +6,7 @@
 #include "apps/case.hpp"
 #include "apps/cell_observer.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/rigid_bodies.hpp"
 #include "apps/run.hpp"
 #include "apps/run_files.hpp"
 #include "apps/schedule.hpp"
@@ -35,6 +36,7 @@ class CoupledSystem {
     std::unique_ptr<membrane::Batch> cells;
     std::unique_ptr<fluid::Solver> fluid;
     std::unique_ptr<coupling::Loop> loop;
+    std::unique_ptr<RigidBodies> bodies;  ///< null without [[body]]
 };
 
 /// The numbers of a coupled case: capillary scaling and step. `cells` are those of the case.

@@ -230,6 +230,8 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
     }
     loop = make_loop(c, numerics, *fluid, *cells, pull_of(c, *cells, checkpoint));
     if (!checkpoint) check_places(c, fluid->grid().rectilinear(), *cells, *loop);
+    if (!c.bodies.empty())
+        bodies = std::make_unique<RigidBodies>(c, scales, fluid->grid().rectilinear(), *loop);
 }
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {
@@ -246,6 +248,7 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("loop.viscosity_x", memory.viscosity_nodes[0]);
     checkpoint.put("loop.viscosity_y", memory.viscosity_nodes[1]);
     checkpoint.put("loop.viscosity_z", memory.viscosity_nodes[2]);
+    if (bodies) bodies->save(checkpoint);
     checkpoint.put("loop.target", {memory.target.begin(), memory.target.end()});
     checkpoint.put("loop.pull", memory.pull);
     checkpoint.put("loop.viscous_tension", memory.viscous.tension);
@@ -258,6 +261,7 @@ void CoupledSystem::load(const output::Checkpoint& checkpoint) {
     for (int q = 0; q < 4; ++q)
         fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
     load_positions(*cells, checkpoint);
+    if (bodies) bodies->load(checkpoint);
     coupling::CellMemory memory;
     memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
                               checkpoint.array("loop.viscosity_z")};

@@ -173,6 +173,36 @@ fluid::HexPatches make_hex_patches(const Case& c, const Scales& scales, double r
     return patches;
 }
 
+namespace {
+
+/// The velocity of the side x- everywhere, and the pressure that falls along x as its mean friction demands.
+std::function<fluid::FlowPoint(const Vec3d&)> inflow_everywhere(const Case& c, double rate,
+                                                                const Scales& scales) {
+    const meshing::RectilinearGrid grid = make_grid(c.grid);
+    const auto& [x_axis, y_axis, z_axis] = grid.axes;
+    const double side = x_axis.lower(), end = x_axis.upper();
+    const auto u = [side, patch = make_patches(c, scales, rate)[0]](double y, double z) {
+        return patch.velocity_at({side, y, z}, 0);
+    };
+    constexpr int samples = 32;
+    const double dy = y_axis.length() / samples, dz = z_axis.length() / samples;
+    double laplacian = 0;
+    for (int j = 0; j < samples; ++j)
+        for (int k = 0; k < samples; ++k) {
+            const double y = y_axis.lower() + (j + 0.5) * dy, z = z_axis.lower() + (k + 0.5) * dz;
+            const double twice = 2 * u(y, z).x, hy = dy / 2, hz = dz / 2;
+            laplacian += ((u(y + hy, z).x + u(y - hy, z).x - twice) / (hy * hy) +
+                          (u(y, z + hz).x + u(y, z - hz).x - twice) / (hz * hz)) /
+                         (samples * samples);
+        }
+    const double gradient = 3 * c.fluid.viscosity / scales.viscosity_pa_s * laplacian;
+    return [u, end, gradient](const Vec3d& x) {
+        return fluid::FlowPoint{1 + gradient * (x.x - end), u(x.y, x.z)};
+    };
+}
+
+}  // namespace
+
 std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double rate, const Scales& scales) {
     if (c.fluid.initial == InitialFlow::channel)
         return [flow = *undisturbed_flow(c), scale = 1 / scales.velocity_um_per_s](const Vec3d& x) {
@@ -180,6 +210,7 @@ std::function<fluid::FlowPoint(const Vec3d&)> initial_flow(const Case& c, double
             return fluid::FlowPoint{
                 1, {flow.axis() == 0 ? u : 0, flow.axis() == 1 ? u : 0, flow.axis() == 2 ? u : 0}};
         };
+    if (c.fluid.initial == InitialFlow::inflow) return inflow_everywhere(c, rate, scales);
     if (c.fluid.initial == InitialFlow::uniform) {
         const Triple& u = c.fluid.initial_velocity;
         const Vec3d velocity = (1 / scales.velocity_um_per_s) * Vec3d{u[0], u[1], u[2]};
@@ -226,6 +257,20 @@ double fastest_side(const Case& c) {
                 speed = std::max(speed, fastest_expression(c, in, grid, a, side));
         }
     return speed;
+}
+
+coupling::Kernel kernel_of(Kernel kernel) {
+    switch (kernel) {
+        case Kernel::phi2:
+            return coupling::Kernel::phi2;
+        case Kernel::phi3:
+            return coupling::Kernel::phi3;
+        case Kernel::phi4:
+            return coupling::Kernel::phi4;
+        case Kernel::lagrange:
+            break;
+    }
+    return coupling::Kernel::lagrange;
 }
 
 fluid::GradientMethod gradient_of(Gradient gradient) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/case.hpp"
+#include "coupling/delta_kernel.hpp"
 #include "fluid/hex_boundary.hpp"
 #include "fluid/solver.hpp"
 
@@ -35,7 +36,8 @@ void set_body_force(const Case& c, const Scales& scales, fluid::SolverOptions& o
 /// Largest speed that a side of given velocity has, um/s; expressions are taken at t = 0 and at 16 times of the run.
 double fastest_side(const Case& c);
 
-/// The solver's scheme and gradient operator.
+/// The immersed boundary kernel, and the solver's scheme and gradient operator.
+coupling::Kernel kernel_of(Kernel kernel);
 fluid::Scheme scheme_of(TimeScheme scheme);
 fluid::GradientMethod gradient_of(Gradient gradient);
 

@@ -56,6 +56,10 @@ class FluidRun {
             load_flow(*system_.flow, *files_.restart());
             first_density_ = files_.restart()->number("first_density");
             if (system_.errors) system_.errors->load(*files_.restart());
+            if (system_.bodies) {
+                system_.bodies->load(*files_.restart());
+                system_.loop->restore({});
+            }
         } else {
             first_density_ = system_.flow->mean_density();
         }
@@ -64,6 +68,11 @@ class FluidRun {
         std::vector<std::string> columns{"step",         "time_s",   "largest_speed_um_per_s",
                                          "mean_density", "residual", "dt_s"};
         if (system_.errors) columns.insert(columns.end(), {"centre_u_um_per_s", "centre_exact_um_per_s"});
+        body_column_ = columns.size();
+        if (system_.bodies) {
+            const auto more = system_.bodies->columns();
+            columns.insert(columns.end(), more.begin(), more.end());
+        }
         files_.start_history(columns);
         files_.start_series(system_.plan.at(done_));
         if (!files_.restart()) {
@@ -87,10 +96,11 @@ class FluidRun {
         long long good_step = done_;
         while (done_ < system_.plan.steps) {
             system_.flow->set_time(system_.plan.at(done_) / system_.scales.time_s());
-            system_.flow->step(system_.plan.step / system_.scales.time_s());
+            system_.step(system_.plan.step / system_.scales.time_s());
             ++done_;
             observe();
-            const bool last = done_ == system_.plan.steps, frame = last || due(system_.plan, done_, frames);
+            const bool last = done_ == system_.plan.steps || settled(),
+                       frame = last || due(system_.plan, done_, frames);
             const bool row = frame || due(system_.plan, done_, rows), stop = interrupted();
             if (row || stop || done_ % watch_interval == 0) check(good, good_step);
             if (row) record();
@@ -103,8 +113,28 @@ class FluidRun {
             progress.update(
                 {done_, system_.plan.at(done_), cells * static_cast<double>(system_.flow->evaluations())});
             if (stop && !last) return static_cast<int>(Exit::interrupted);
+            if (last) break;
         }
         return static_cast<int>(Exit::done);
+    }
+
+    /// Whether the run may end early: looked at a hundred times in its length.
+    bool settled() {
+        if (!case_.time.steady || !due(system_.plan, done_, system_.plan.at(system_.plan.steps) / 100))
+            return false;
+        double change = 0, sum = 0;
+        for (std::size_t q = 0; q < 3; ++q) {
+            std::vector<double> now = system_.flow->values(static_cast<int>(q) + 1);
+            if (velocity_[q].size() != now.size()) velocity_[q].assign(now.size(), 0.0);
+            for (std::size_t i = 0; i < now.size(); ++i) {
+                change += (now[i] - velocity_[q][i]) * (now[i] - velocity_[q][i]);
+                sum += now[i] * now[i];
+            }
+            velocity_[q] = std::move(now);
+        }
+        if (!(change < *case_.time.steady * *case_.time.steady * sum)) return false;
+        files_.log().info(fmt::format("steady at {:.4g} s", system_.plan.at(done_)));
+        return true;
     }
 
     void check(const output::Checkpoint& good, long long good_step) {
@@ -132,6 +162,10 @@ class FluidRun {
             const auto centre = system_.errors->centre(*system_.flow, system_.plan.at(done_));
             row.insert(row.end(), centre.begin(), centre.end());
         }
+        if (system_.bodies) {
+            const auto bodies = system_.bodies->row();
+            row.insert(row.end(), bodies.begin(), bodies.end());
+        }
         files_.add_row(row);
     }
 
@@ -146,6 +180,7 @@ class FluidRun {
         cp.put_number("first_density", first_density_);
         cp.put_number("evaluations", evaluations());
         if (system_.errors) system_.errors->save(cp);
+        if (system_.bodies) system_.bodies->save(cp);
         return cp;
     }
 
@@ -168,6 +203,9 @@ class FluidRun {
             if (!failed.empty()) files_.log().warn(failed);
         }
         if (system_.errors) compare(s);
+        if (system_.bodies)
+            s.observables.merge(system_.bodies->observables(dynamic_cast<fluid::Solver&>(*system_.flow),
+                                                            files_.rows(), body_column_));
         if (case_.shear_rate) {
             const double strain = system_.plan.at(done_) * *case_.shear_rate;
             s.conservation.mean_density_per_strain = (system_.flow->mean_density() - first_density_) / strain;
@@ -226,6 +264,8 @@ class FluidRun {
     std::optional<FlowObserver> observer_;
     RunFiles files_;
     long long done_ = 0;
+    std::size_t body_column_ = 0;
+    std::array<std::vector<double>, 3> velocity_;  ///< when settled() looked last
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;
 };
 

@@ -114,10 +114,22 @@ FluidSystem::FluidSystem(const Case& c)
       flow(make_flow(c)),
       plan(make_plan(c, *this)) {
     flow->initialise(initial_flow(c, c.shear_rate.value_or(0) / scales.velocity_um_per_s, scales));
+    if (!c.bodies.empty()) {
+        loop = std::make_unique<coupling::Loop>(dynamic_cast<fluid::Solver&>(*flow),
+                                                kernel_of(c.coupling.kernel));
+        bodies = std::make_unique<RigidBodies>(c, scales, *domain.box, *loop);
+    }
     if (!c.analytical) return;
     errors.emplace(c, *domain.box, scales, plan);
     if (c.fluid.initial == InitialFlow::analytical)
         flow->initialise([this](const Vec3d& x) { return errors->at_start(x); });
+}
+
+void FluidSystem::step(double dt) {
+    if (loop)
+        loop->step(dt);
+    else
+        flow->step(dt);
 }
 
 double FluidSystem::gamma_of(const Case& c, const fluid::SolverOptions& o, const meshing::HexGrid* grid) {
@@ -134,6 +146,7 @@ std::unique_ptr<fluid::Flow> FluidSystem::make_flow(const Case& c) {
     fluid::SolverOptions o;
     o.nu = c.fluid.viscosity / scales.viscosity_pa_s;
     set_body_force(c, scales, o);
+    o.with_force = o.with_force || !c.bodies.empty();
     o.tau_floor = c.numerics.tau_floor;
     o.scheme = c.steady || (c.mesh && c.time.scheme == TimeScheme::factored) ? fluid::Scheme::rk4
                                                                              : scheme_of(c.time.scheme);
@@ -150,12 +163,13 @@ std::unique_ptr<fluid::Flow> FluidSystem::make_flow(const Case& c) {
 
 std::string describe(const Case& c, const FluidSystem& s) {
     return fmt::format(
-        "{}\n  grid          {}, smallest {:.4g} um\n"
-        "  fluid         nu/h = {:.3g}, Ma = {:.3g} at {:.4g} um/s, gamma = {:.3g}\n"
-        "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; "
-        "stress = {:.4g} Pa",
-        c.title, s.describe_grid(), s.smallest(), s.options().nu / s.smallest(), s.mach, s.speed,
-        s.options().gamma, s.scales.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa);
+               "{}\n  grid          {}, smallest {:.4g} um\n"
+               "  fluid         nu/h = {:.3g}, Ma = {:.3g} at {:.4g} um/s, gamma = {:.3g}\n"
+               "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; "
+               "stress = {:.4g} Pa",
+               c.title, s.describe_grid(), s.smallest(), s.options().nu / s.smallest(), s.mach, s.speed,
+               s.options().gamma, s.scales.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa) +
+           (s.bodies ? s.bodies->describe() : "");
 }
 
 void save_flow(const fluid::Flow& flow, output::Checkpoint& checkpoint) {

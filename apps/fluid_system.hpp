@@ -10,6 +10,7 @@
 #include "apps/flow_observer.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/output/checkpoint.hpp"
+#include "apps/rigid_bodies.hpp"
 #include "apps/schedule.hpp"
 #include "fluid/hex_solver.hpp"
 #include "fluid/solver.hpp"
@@ -40,8 +41,13 @@ class FluidSystem {
     Scales scales;
     std::string reasoning;  ///< for gamma, where it was chosen; lines
     std::unique_ptr<fluid::Flow> flow;
-    StepPlan plan;                        ///< in s; one step in steady runs
-    std::optional<ErrorObserver> errors;  ///< where the case names an exact solution
+    StepPlan plan;                         ///< in s; one step in steady runs
+    std::optional<ErrorObserver> errors;   ///< where the case names an exact solution
+    std::unique_ptr<coupling::Loop> loop;  ///< where the case has bodies
+    std::unique_ptr<RigidBodies> bodies;
+
+    /// One step of the flow and what is immersed in it.
+    void step(double dt);
 
     /// The flow as the solver of a box; null on a mesh.
     [[nodiscard]] const fluid::Solver* box_solver() const {

@@ -186,15 +186,15 @@ void RunFiles::write_flow(const Case& c, const Scales& scales, const fluid::HexS
 }
 
 void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
-                           const membrane::Batch* cells, double position) {
+                           const membrane::Batch* cells, const RigidBodies* bodies, double position) {
     const auto fluid_file = folder_.fluid_file(fluid_series_->next());
     output::write_fluid(fluid_file, fluid.grid().rectilinear().axes,
                         fluid_arrays(c, scales, fluid, fluid.options().gamma), position);
     fluid_series_->add(position, fluid_file);
-    if (!cells) return;
+    if (!cells && !bodies) return;
     std::vector<meshing::SurfaceMesh> meshes;
     std::vector<double> fx, fy, fz;
-    for (std::size_t i = 0; i < cells->cells(); ++i) {
+    for (std::size_t i = 0; cells && i < cells->cells(); ++i) {
         meshes.push_back({cells->positions(i), cells->topology().triangles()});
         meshing::translate(meshes.back(), into_box(c, fluid.grid().rectilinear(), meshes.back().vertices));
         constexpr double piconewton_per_unit = 10;
@@ -202,6 +202,15 @@ void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Sol
             fx.push_back(f.x * piconewton_per_unit);
             fy.push_back(f.y * piconewton_per_unit);
             fz.push_back(f.z * piconewton_per_unit);
+        }
+    }
+    if (bodies) {
+        const RigidBodies::Frame rigid = bodies->frame();
+        meshes.insert(meshes.end(), rigid.meshes.begin(), rigid.meshes.end());
+        for (const Vec3d& f : rigid.forces_pn) {
+            fx.push_back(f.x);
+            fy.push_back(f.y);
+            fz.push_back(f.z);
         }
     }
     const auto cell_file = folder_.cell_file(cell_series_->next());

@@ -14,6 +14,7 @@
 #include "apps/output/log.hpp"
 #include "apps/output/pvd_series.hpp"
 #include "apps/output/summary.hpp"
+#include "apps/rigid_bodies.hpp"
 #include "apps/run.hpp"
 #include "exchange/error.hpp"
 #include "fluid/hex_solver.hpp"
@@ -47,9 +48,9 @@ class RunFiles {
     /// Writes a flow on a mesh as the next frame.
     void write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
                     const meshing::HexMesh& mesh, double position);
-    /// Writes the fluid and the cells (if any) as the next frame.
+    /// Writes the fluid and the cells and bodies (if any) as the next frame.
     void write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
-                     const membrane::Batch* cells, double position);
+                     const membrane::Batch* cells, const RigidBodies* bodies, double position);
 
     /// Writes a checkpoint with version, case, step and the history up to this step added.
     void write_checkpoint(output::Checkpoint checkpoint, long long step);

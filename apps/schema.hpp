@@ -81,6 +81,7 @@ const Table& case_schema();
 
 /// Its tables that fill a source of their own.
 Table cell_table();
+Table rigid_body_table();
 Table observables_table();
 Table profile_table();
 Table membrane_table();

@@ -21,11 +21,11 @@ std::string section(const Table& table, const std::string& title) {
             ranges += range.empty() ? ""
                                     : (ranges.empty() ? "" : " or ") + range +
                                           (form.unit.empty() ? "" : " " + form.unit);
-            if (form.type == Type::table && inner.find("## [" + form.members[0].name) == std::string::npos) {
+            if (form.type == Type::table) {
                 const bool array = form.count != Form::single;
                 const std::string& name = form.members[0].name;
                 const std::string known = array ? fmt::format("[[{}]]", name) : fmt::format("[{}]", name);
-                inner += section(form.members[0], known);
+                if (inner.find("## " + known) == std::string::npos) inner += section(form.members[0], known);
             }
         }
         const std::string standard = key.required           ? "required"

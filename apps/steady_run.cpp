@@ -184,7 +184,7 @@ int run_steady(const Case& c, const RunOptions& options) {
 
 void write_frame(RunFiles& files, const Case& c, const FluidSystem& system, double position) {
     if (const fluid::Solver* box = system.box_solver())
-        files.write_frame(c, system.scales, *box, nullptr, position);
+        files.write_frame(c, system.scales, *box, nullptr, system.bodies.get(), position);
     else
         files.write_flow(c, system.scales, dynamic_cast<const fluid::HexSolver&>(*system.flow),
                          *system.domain.mesh, position);

@@ -1,0 +1,149 @@
+#include "apps/rigid_surface.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "apps/cell_surface.hpp"
+#include "exchange/error.hpp"
+#include "meshing/icosphere.hpp"
+#include "meshing/spheroid.hpp"
+#include "meshing/surface_io.hpp"
+
+namespace hemoflux::apps {
+namespace {
+
+/// Nodes per square of a cell below which the Lagrange kernel lets the flow through.
+constexpr double fewest_nodes = 1.4;
+
+double component(const Vec3d& v, std::size_t d) { return d == 0 ? v.x : d == 1 ? v.y : v.z; }
+
+/// Width of the cell of an axis that holds x, or of the nearest one.
+double width_at(const meshing::Axis& axis, double x) {
+    const auto after = std::upper_bound(axis.faces.begin() + 1, axis.faces.end() - 1, x);
+    return *after - *(after - 1);
+}
+
+/// Extent of a body from its centre, um, at most.
+double reach(const RigidInput& b) {
+    if (!b.file.empty()) return 0;
+    if (b.shape == RigidShape::spheroid) return b.diameter / 2 * std::max(1.0, b.aspect);
+    return b.diameter / 2;
+}
+
+meshing::SurfaceMesh ball(const RigidInput& b, double h) {
+    const double polar = b.shape == RigidShape::spheroid ? b.aspect : 1, radius = b.diameter / 2;
+    const meshing::SpheroidAxes axes{radius, radius * polar};
+    int level = 1;
+    if (b.nodes)
+        level = meshing::icosphere_level(static_cast<int>(*b.nodes));
+    else
+        while (level < meshing::icosphere_max_level &&
+               (10 * std::pow(4, level) + 2) * h * h < fewest_nodes * meshing::area(axes))
+            ++level;
+    return meshing::spheroid(meshing::icosphere(level, 1), axes);
+}
+
+coupling::BodySurface cylinder(const RigidInput& b, double h) {
+    const double around = std::numbers::pi * b.diameter;
+    const double nodes = b.nodes.value_or(std::ceil(around * b.length * 1.5 / (h * h)));
+    const int n = std::max(8, static_cast<int>(std::lround(std::sqrt(nodes * around / b.length))));
+    const int along = std::max(1, static_cast<int>(std::lround(nodes / n)));
+    return coupling::cylinder_mantle(b.diameter, b.length, {b.axis[0], b.axis[1], b.axis[2]}, n, along);
+}
+
+}  // namespace
+
+double cells_around(const RigidInput& b, const meshing::RectilinearGrid& grid) {
+    double volume = 1e300;
+    const double r = reach(b);
+    for (const double sx : {-1.0, 0.0, 1.0})
+        for (const double sy : {-1.0, 0.0, 1.0})
+            for (const double sz : {-1.0, 0.0, 1.0})
+                volume = std::min(volume, width_at(grid.axes[0], b.position[0] + sx * r) *
+                                              width_at(grid.axes[1], b.position[1] + sy * r) *
+                                              width_at(grid.axes[2], b.position[2] + sz * r));
+    return std::cbrt(volume);
+}
+
+coupling::BodySurface make_surface(const RigidInput& b, double h) {
+    if (b.file.empty() && b.shape == RigidShape::cylinder) return cylinder(b, h);
+    meshing::SurfaceMesh mesh = b.file.empty() ? ball(b, h) : meshing::read_surface(b.file);
+    place(mesh, b.axis, {0, 0, 0});
+    return coupling::closed_surface(std::move(mesh));
+}
+
+double retraction(const RigidInput& b, Kernel kernel) {
+    if (b.retraction) return *b.retraction;
+    switch (kernel) {
+        case Kernel::phi2:
+            return 0.34;
+        case Kernel::phi3:
+            return 0.38;
+        case Kernel::phi4:
+            return 0.51;
+        case Kernel::lagrange:
+            break;
+    }
+    return 0.12;
+}
+
+void check_inside(const Case& c, std::size_t index, const coupling::BodySurface& surface,
+                  const meshing::RectilinearGrid& grid) {
+    for (std::size_t d = 0; d < 3; ++d) {
+        const meshing::Axis& axis = grid.axes[d];
+        if (c.periodic(d)) continue;
+        for (const Vec3d& x : surface.mesh.vertices) {
+            const double at = c.bodies[index].position[d] + component(x, d);
+            if (at >= axis.lower() && at <= axis.upper()) continue;
+            throw InputError(
+                fmt::format("body.{} reaches through the side \"{}{}\"", index, "xyz"[d],
+                            at > axis.upper() ? '+' : '-'),
+                fmt::format("a node has {} = {:.4g} um, the box reaches from {:.4g} to {:.4g} um", "xyz"[d],
+                            at, axis.lower(), axis.upper()),
+                "Move the body, enlarge the box, or make this axis periodic");
+        }
+    }
+}
+
+double reference_area(const RigidInput& b, const coupling::BodySurface& surface) {
+    if (b.reference_area) return *b.reference_area;
+    if (!b.file.empty())
+        return std::numbers::pi * std::pow(0.75 * surface.volume / std::numbers::pi, 2.0 / 3);
+    if (b.shape == RigidShape::cylinder) return b.diameter * b.length;
+    return std::numbers::pi / 4 * b.diameter * b.diameter;
+}
+
+double fluid_speed(const RigidInput& b, const coupling::BodyState& state, fluid::Solver& fluid) {
+    return std::max(fluid.largest_speed(), norm(state.velocity) + reach(b) * norm(state.angular_velocity));
+}
+
+double pressure_difference(const coupling::RigidBody& body, const Vec3d& direction,
+                           const fluid::Solver& fluid, const fluid::Probe& probe) {
+    const Vec3d centre = body.state().centre;
+    const coupling::Matrix3 turn = coupling::rotation(body.state().orientation);
+    double end = 0;
+    for (const Vec3d& x : body.surface().mesh.vertices) end = std::max(end, dot(turn * x, direction));
+    const auto& axes = fluid.grid().rectilinear().axes;
+    const double gamma = fluid.options().gamma;
+    double pressure[2];
+    for (const int side : {0, 1}) {
+        const Vec3d outward = side == 0 ? -direction : direction, surface = centre + end * outward;
+        const Vec3d widths{width_at(axes[0], surface.x), width_at(axes[1], surface.y),
+                           width_at(axes[2], surface.z)};
+        const double h = norm(Vec3d{outward.x * widths.x, outward.y * widths.y, outward.z * widths.z});
+        double p[3];
+        for (int k = 0; k < 3; ++k) {
+            const Vec3d at = surface + ((k + 2) * h) * outward;
+            for (std::size_t d = 0; d < 3; ++d)
+                if (component(at, d) < axes[d].lower() || component(at, d) > axes[d].upper()) return NAN;
+            p[k] = gamma * (probe(at)[0] - 1) / 3;
+        }
+        pressure[side] = 6 * p[0] - 8 * p[1] + 3 * p[2];  // parabola through 2, 3, 4 taken at 0
+    }
+    return pressure[0] - pressure[1];
+}
+
+}  // namespace hemoflux::apps
