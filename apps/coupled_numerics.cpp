@@ -28,20 +28,6 @@ void check_supported(const Case& c) {
 
 }  // namespace
 
-coupling::Kernel kernel_of(Kernel kernel) {
-    switch (kernel) {
-        case Kernel::phi2:
-            return coupling::Kernel::phi2;
-        case Kernel::phi3:
-            return coupling::Kernel::phi3;
-        case Kernel::phi4:
-            return coupling::Kernel::phi4;
-        case Kernel::lagrange:
-            break;
-    }
-    return coupling::Kernel::lagrange;
-}
-
 double clock_rate(const Case& c) {
     if (c.shear_rate) return *c.shear_rate;
     const CellInput& cell = c.cells.front();

@@ -42,9 +42,6 @@ class CoupledSystem {
 /// The numbers of a coupled case: capillary scaling and step. `cells` are those of the case.
 coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid);
 
-/// The immersed boundary's kernel of that name.
-coupling::Kernel kernel_of(Kernel kernel);
-
 /// Strain units per second: the shear rate, or without shear K_S/(mu R0) of the first cell, the rate at which its
 /// membrane relaxes in the suspending fluid.
 double clock_rate(const Case& c);
