@@ -60,7 +60,7 @@ TEST(CellMotion, JefferyOrbitOfARigidDiscIsTumbling) {
     };
     const CellMotion m = classify(history(alpha, [&](double s) {
         return alpha(s) + 20 +
-               5 * std::sin(2 * rate * s);  // the material goes with the axis, and a bit to and fro
+               5 * std::sin(2 * rate * s);  // the material goes with the axis, and a bit back and forth
     }));
     EXPECT_EQ(m.mode, MotionMode::tumbling);
     EXPECT_EQ(m.treads, 0);
