@@ -182,6 +182,7 @@ std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numeric
     }
     o.kernel = kernel_of(c.coupling.kernel);
     o.force_factor = n.force_factor;
+    o.constraint_damping = n.constraint_damping;
     o.recentre = c.coupling.recentre;
     o.smoothing.local_cells = c.coupling.smoothing;
     if (c.contact) o.contact = contact_options(c, cells, fluid.grid().rectilinear().smallest());

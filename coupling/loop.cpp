@@ -44,7 +44,7 @@ Loop::Loop(fluid::Solver& fluid, membrane::Batch& cells, const LoopOptions& o) :
     cells_ = std::make_unique<ImmersedCells>(
         grid_, cells,
         CellOptions{o.force_factor, o.nu_inside, fluid_.options().nu, o.smoothing, o.recentre, o.contact,
-                    o.pull, o.surface_nu, o.membrane_time, o.maxwell_stiffness},
+                    o.pull, o.surface_nu, o.membrane_time, o.maxwell_stiffness, o.constraint_damping},
         nu);
     add(*cells_);
 }
