@@ -131,6 +131,18 @@ struct Relieve {
     }
 };
 
+/// The nodes that pad a cell go with its first one, on which they lie.
+struct MovePadding {
+    std::size_t stride;
+    const int* ring_begin;
+    double* u[3];
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        const std::size_t v = i % stride;
+        if (ring_begin[v] < ring_begin[v + 1]) return;
+        for (int q = 0; q < 3; ++q) u[q][i] = u[q][i - v];
+    }
+};
+
 }  // namespace
 
 struct ConstraintDamping::Scratch {
@@ -175,6 +187,8 @@ void ConstraintDamping::apply(const double* x, const double* y, const double* z,
     scratch_->products.sum_segments(cells_, stride_, Products{stride_, node_.data(), {u[0], u[1], u[2]}},
                                     sums_.data());
     exchange::for_each_index(nodes, Project{stride_, node_.data(), sums_.data(), share_, {u[0], u[1], u[2]}});
+    exchange::for_each_index(nodes, MovePadding{stride_, ring_begin_.data(), {u[0], u[1], u[2]}},
+                             exchange::Cost::cheap);
 }
 
 }  // namespace hemoflux::coupling

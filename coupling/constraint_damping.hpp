@@ -54,7 +54,8 @@ class ConstraintDamping {
                       double strength);
     ~ConstraintDamping();
 
-    /// Damps velocities u (device, in place) of the nodes at x, y, z (device, um).
+    /// Damps velocities u (device, in place) of the nodes at x, y, z (device, um). Padding gets the velocity of the first
+    /// node of its cell.
     void apply(const double* x, const double* y, const double* z, const std::array<double*, 3>& u);
 
   private:

@@ -78,7 +78,7 @@ class InteriorViscosity {
     HalfWidth half_width_;
     MotionLimits limits_;
     std::size_t triangles_, recomputations_ = 0;
-    /// Triangles around each vertex: vertex v has ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1] - 1].
+    /// Corners of triangles at each vertex, as in TriangleRings.
     exchange::Buffer<int> ring_begin_, ring_;
     exchange::Buffer<double> nu_inside_;
     /// Positions and unit normals at the last recomputation.
