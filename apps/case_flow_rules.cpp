@@ -109,9 +109,18 @@ void check_analytical(const Section& top, const std::string& name) {
 void check_mesh(const Section& top, const std::string& name) {
     const auto mesh = top.table("grid") ? top.table("grid")->table("mesh") : std::nullopt;
     if (!mesh) return;
-    if (top.text("kind") != "fluid")
-        refuse(name, "grid.mesh in a case that is not of kind \"fluid\"", "cells need a box",
-               "Write kind = \"fluid\"");
+    if (top.text("kind") == "membrane")
+        refuse(name, "grid.mesh in a case of kind \"membrane\"", "it has no fluid", "Remove [grid]");
+    if (top.table("packing"))
+        refuse(name, "[packing] with grid.mesh", "cells are packed into boxes",
+               "List the cells, or give the grid length and cells");
+    if (const auto contact = top.table("contact"); contact && contact->flag("walls"))
+        refuse(name, "contact.walls = true with grid.mesh", "the walls that push are those of a box",
+               "Set contact.walls = false");
+    if (const auto coupling = top.table("coupling"); coupling && coupling->text("kernel") == "phi2")
+        refuse(name, "coupling.kernel = \"phi2\" with grid.mesh",
+               "on hexahedra its hat reaches too few cells for the first moments",
+               "Use lagrange, phi3 or phi4");
     if (top.table("analytical"))
         refuse(name, "[analytical] with grid.mesh", "the solutions are compared on boxes",
                "Remove one of them");

@@ -66,9 +66,6 @@ void check_rigid_rules(const Section& top, const std::string& name) {
     if (top.table("steady"))
         refuse("a [[body]] with [steady]", "its forces are found step by step in time",
                "Replace [steady] by [time], with steady = 1e-6 to end the run in the steady state");
-    if (const auto grid = top.table("grid"); grid && grid->table("mesh"))
-        refuse("a [[body]] with grid.mesh", "bodies are immersed in boxes of cells",
-               "Give the grid length and cells, or let the mesh follow the body");
     if (const auto coupling = top.table("coupling"); coupling && coupling->flag("recentre"))
         refuse("a [[body]] with coupling.recentre", "cells would be moved and bodies not",
                "Set coupling.recentre = false");

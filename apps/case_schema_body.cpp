@@ -7,7 +7,8 @@ Table rigid_body_table() {
     const Form length = quantity_in("um").above(0, "a length is positive");
     return {
         "body",
-        "One rigid body each, immersed in the fluid (chapter 5), on a box of cells. Kinds fluid and coupled.",
+        "One rigid body each, immersed in the fluid (chapter 5), in a box of cells or a mesh. Kinds fluid "
+        "and coupled.",
         {{"name", {text()}, "\"\"", "what files and observables of several bodies call it"},
          {"shape",
           {choice({"sphere", "spheroid", "cylinder"})},

@@ -93,7 +93,7 @@ class CoupledRun {
     int march() {
         output::Progress progress(system_.plan.at(done_), system_.plan.at(system_.plan.steps), "strain",
                                   options_.quiet);
-        const auto cells = static_cast<double>(system_.fluid->grid().view().layout.cells());
+        const auto cells = static_cast<double>(system_.fluid->cells());
         while (done_ < system_.plan.steps) {
             const bool last = done_ + 1 == system_.plan.steps;
             const bool write = last || due(system_.plan, done_ + 1, frame_interval());
@@ -165,8 +165,12 @@ class CoupledRun {
     }
 
     void frame() {
-        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(), system_.bodies.get(),
-                           system_.plan.at(done_));
+        const double at = system_.plan.at(done_);
+        if (const fluid::Solver* box = system_.box_solver())
+            files_.write_frame(case_, system_.scales, *box, system_.cells.get(), system_.bodies.get(), at);
+        else
+            files_.write_flow(case_, system_.scales, *system_.mesh_solver(), *system_.domain.mesh,
+                              system_.cells.get(), system_.bodies.get(), system_.loop.get(), at);
     }
 
     /// Keeps the state in memory, as the last one known to be good.
@@ -225,16 +229,15 @@ class CoupledRun {
         s.performance.cpu_s = output::cpu_seconds();
         s.performance.steps = static_cast<double>(done_);
         s.performance.residuals_per_strain = evaluations() / strain;
-        s.performance.cell_residuals_per_s =
-            static_cast<double>(system_.fluid->evaluations()) *
-            static_cast<double>(system_.fluid->grid().view().layout.cells()) / wall_s_;
+        s.performance.cell_residuals_per_s = static_cast<double>(system_.fluid->evaluations()) *
+                                             static_cast<double>(system_.fluid->cells()) / wall_s_;
         if (!(here > 0)) s.performance.cell_residuals_per_s = NAN;
         s.performance.peak_rss_mib = output::peak_rss_mib();
         s.errors_estimated = system_.numerics.errors;
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         plot_inclination();
-        draw_pictures(case_, files_, "strain");
+        if (system_.domain.box) draw_pictures(case_, files_, "strain");
         files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
     }
 

@@ -8,6 +8,8 @@
 #include "apps/cell_builder.hpp"
 #include "apps/cell_surface.hpp"
 #include "apps/coupled_run.hpp"
+#include "apps/mesh_case.hpp"
+#include "coupling/cell_grid.hpp"
 #include "coupling/overlap.hpp"
 #include "coupling/packing.hpp"
 #include "exchange/error.hpp"
@@ -94,18 +96,14 @@ void load_positions(membrane::Batch& cells, const output::Checkpoint& checkpoint
     cells.z().assign(checkpoint.array("membrane.z", nodes));
 }
 
-/// The relaxed cells must lie inside the box and must not overlap.
-void check_places(const Case& c, const meshing::RectilinearGrid& grid, const membrane::Batch& cells,
-                  coupling::Loop& loop) {
+/// The relaxed cells must lie inside the grid and must not overlap.
+void check_places(const membrane::Batch& cells, coupling::Loop& loop) {
     for (std::size_t i = 0; i < cells.cells(); ++i)
-        for (const Vec3d& r : cells.positions(i)) {
-            const double x[3] = {r.x, r.y, r.z};
-            for (std::size_t a = 0; a < 3; ++a)
-                if (!c.periodic(a) && (x[a] < grid.axes[a].lower() || x[a] > grid.axes[a].upper()))
-                    throw InputError(fmt::format("[[cell]] number {}", i),
-                                     "relaxed, it reaches through a side of the box that is not periodic",
-                                     "Move it inside or enlarge the box");
-        }
+        for (const Vec3d& r : cells.positions(i))
+            if (!loop.grid().contains(r))
+                throw InputError(fmt::format("[[cell]] number {}", i),
+                                 "relaxed, it reaches through a side of the grid that is not periodic",
+                                 "Move it inside or enlarge the grid");
     const coupling::Gap gap = loop.cells()->smallest_gap();
     if (gap.distance < 0)
         throw InputError(fmt::format("[[cell]] numbers {} and {}", std::min(gap.cell, gap.other),
@@ -132,8 +130,8 @@ double surface_viscosity_in_fluid(const Case& c, const coupling::Numerics& n) {
     return n.nu * c.cells.front().membrane_viscosity / (c.fluid.viscosity * metre_per_um);
 }
 
-std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::RectilinearGrid& grid,
-                                          const coupling::Numerics& n, const Scales& scales) {
+fluid::SolverOptions solver_options(const Case& c, double smallest, const coupling::Numerics& n,
+                                    const Scales& scales) {
     fluid::SolverOptions o;
     o.nu = n.nu;
     o.largest_nu = n.largest_nu;
@@ -143,16 +141,21 @@ std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::Rectilin
         surface_nu > 0 || std::any_of(c.cells.begin(), c.cells.end(), [&](const CellInput& cell) {
             return cell.cytosol_viscosity != c.fluid.viscosity;
         });
-    o.largest_nu += surface_nu / (c.coupling.smoothing * grid.smallest());
+    o.largest_nu += surface_nu / (c.coupling.smoothing * smallest);
     for (const CellInput& cell : c.cells)
         o.smallest_nu = std::min(o.smallest_nu > 0 ? o.smallest_nu : n.nu,
                                  n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
     set_body_force(c, scales, o);
     o.tau_floor = c.numerics.tau_floor;
-    o.scheme = scheme_of(c.time.scheme);
-    auto solver = std::make_unique<fluid::Solver>(grid, make_patches(c, scales, n.rate), o);
-    solver->initialise(initial_flow(c, n.rate, scales));
-    return solver;
+    o.scheme = coupled_scheme(c);
+    o.gradient = gradient_of(c.numerics.gradient);
+    return o;
+}
+
+/// Smallest width of a cell; on a mesh the smallest cube root of a volume.
+double smallest_of(const FluidDomain& domain, const std::optional<meshing::HexGrid>& grid) {
+    return domain.box ? domain.box->smallest()
+                      : std::cbrt(*std::min_element(grid->volume.begin(), grid->volume.end()));
 }
 
 /// Force along x on every node of the batch, 1e-11 N, of [tweezers]: those of a checkpoint, or by the shape as it is.
@@ -168,41 +171,27 @@ std::vector<double> pull_of(const Case& c, const membrane::Batch& cells,
     return pull;
 }
 
-std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numerics& n, fluid::Solver& fluid,
-                                          membrane::Batch& cells, std::vector<double> pull) {
-    coupling::LoopOptions o;
-    o.pull = std::move(pull);
-    o.surface_nu = surface_viscosity_in_fluid(c, n);
-    if (c.coupling.membrane_viscosity == MembraneViscosityForm::springs &&
-        c.cells.front().membrane_viscosity > 0) {
-        o.membrane_time = n.step_seconds / n.step * 1e5;  // the membrane counts time in 1e-5 s
-        // as stiff as the step allows, so that the elements yield in much less than a strain unit
-        constexpr double length = 1e-6, tension_unit = 1e-5;  // m, N/m
-        o.maxwell_stiffness = length * c.fluid.viscosity / n.step_seconds / tension_unit;
-    }
-    o.kernel = kernel_of(c.coupling.kernel);
-    o.force_factor = n.force_factor;
-    o.recentre = c.coupling.recentre;
-    o.smoothing.local_cells = c.coupling.smoothing;
-    if (c.contact) o.contact = contact_options(c, cells, fluid.grid().rectilinear().smallest());
-    if (fluid.options().with_viscosity)
-        for (const CellInput& cell : c.cells)
-            o.nu_inside.push_back(n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
-    return std::make_unique<coupling::Loop>(fluid, cells, o);
-}
-
-constexpr const char* fluid_names[4] = {"fluid.density", "fluid.u", "fluid.v", "fluid.w"};
-
 }  // namespace
 
-CoupledSystem::CoupledSystem(const Case& c)
-    : clock(clock_rate(c)),
-      numerics(numerics_of(c, make_grid(c.grid))),
-      plan(strain_of(c), numerics.step_strain) {
-    const meshing::RectilinearGrid grid = make_grid(c.grid);
-    numerics.step_strain = plan.step;
-    numerics.step = plan.step / numerics.rate;
-    numerics.step_seconds = plan.step / clock;
+void CoupledSystem::make_flow(const Case& c, const std::optional<meshing::HexGrid>& grid) {
+    const fluid::SolverOptions o = solver_options(c, smallest_, numerics, scales);
+    if (!grid) {
+        auto solver = std::make_unique<fluid::Solver>(*domain.box, make_patches(c, scales, numerics.rate), o);
+        static_cast<void>(
+            coupling::CellGrid(*domain.box, solver->grid().periodic()));  // refuses too few cells
+        fluid = std::move(solver);
+    } else {
+        fluid = std::make_unique<fluid::HexSolver>(*grid, make_hex_patches(c, scales, numerics.rate, 1), o);
+    }
+    fluid->initialise(initial_flow(c, numerics.rate, scales));
+}
+
+CoupledSystem::CoupledSystem(const Case& c) : domain(c), clock(clock_rate(c)), plan(1, 1) {
+    std::optional<meshing::HexGrid> grid;
+    if (domain.mesh) grid = make_hex_grid(c, *domain.mesh);
+    smallest_ = smallest_of(domain, grid);
+    numerics =
+        numerics_of(c, smallest_, std::max(std::abs(domain.bounds.lower.y), std::abs(domain.bounds.upper.y)));
     scales = {numerics.velocity_um_per_s, c.fluid.viscosity * clock / (numerics.nu * numerics.rate),
               c.fluid.viscosity / numerics.nu, c.fluid.density};
     check_same_kind(c.cells);
@@ -217,8 +206,45 @@ CoupledSystem::CoupledSystem(const Case& c)
             fmt::format("output.window_strain = [{}, {}]", (*window)[0], (*window)[1]),
             fmt::format("the run ends at strain {:.4g}, so no observable would be taken", strain_of(c)),
             "Let the window begin earlier, or run longer");
-    fluid = make_fluid(c, grid, numerics, scales);
-    static_cast<void>(coupling::CellGrid(grid, fluid->grid().periodic()));  // refuses too few cells
+    make_flow(c, grid);
+    if (grid && numerics.step_limit != "given") limit_step();
+    plan = StepPlan(strain_of(c), numerics.step_strain);
+    numerics.step_strain = plan.step;
+    numerics.step = plan.step / numerics.rate;
+    numerics.step_seconds = plan.step / clock;
+}
+
+void CoupledSystem::limit_step() {
+    constexpr double share = 0.9;
+    const double stable = share * numerics.rate * mesh_solver()->largest_step(numerics.mach / std::sqrt(3.0));
+    if (stable >= numerics.step_strain) return;
+    numerics.step_strain = stable;
+    numerics.step_limit = "smallest hexahedra";
+}
+
+std::unique_ptr<coupling::Loop> CoupledSystem::make_loop(const Case& c, std::vector<double> pull) {
+    const coupling::Numerics& n = numerics;
+    coupling::LoopOptions o;
+    o.pull = std::move(pull);
+    o.surface_nu = surface_viscosity_in_fluid(c, n);
+    if (c.coupling.membrane_viscosity == MembraneViscosityForm::springs &&
+        c.cells.front().membrane_viscosity > 0) {
+        o.membrane_time = n.step_seconds / n.step * 1e5;  // the membrane counts time in 1e-5 s
+        // as stiff as the step allows, so that the elements yield in much less than a strain unit
+        constexpr double length = 1e-6, tension_unit = 1e-5;  // m, N/m
+        o.maxwell_stiffness = length * c.fluid.viscosity / n.step_seconds / tension_unit;
+    }
+    o.kernel = kernel_of(c.coupling.kernel);
+    o.force_factor = n.force_factor;
+    o.recentre = c.coupling.recentre;
+    o.smoothing.local_cells = c.coupling.smoothing;
+    if (c.contact) o.contact = contact_options(c, *cells, smallest());
+    const auto& options = box_solver() ? box_solver()->options() : mesh_solver()->options();
+    if (options.with_viscosity)
+        for (const CellInput& cell : c.cells)
+            o.nu_inside.push_back(n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
+    return box_solver() ? std::make_unique<coupling::Loop>(*box_solver(), *cells, o)
+                        : std::make_unique<coupling::Loop>(*mesh_solver(), *cells, o);
 }
 
 void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoint) {
@@ -228,15 +254,13 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
     } else {
         cells = make_cells(c);
     }
-    loop = make_loop(c, numerics, *fluid, *cells, pull_of(c, *cells, checkpoint));
-    if (!checkpoint) check_places(c, fluid->grid().rectilinear(), *cells, *loop);
-    if (!c.bodies.empty())
-        bodies = std::make_unique<RigidBodies>(c, scales, fluid->grid().rectilinear(), *loop);
+    loop = make_loop(c, pull_of(c, *cells, checkpoint));
+    if (!checkpoint) check_places(*cells, *loop);
+    if (!c.bodies.empty()) bodies = std::make_unique<RigidBodies>(c, scales, *loop);
 }
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {
-    for (int q = 0; q < 4; ++q)
-        checkpoint.put(fluid_names[q], fluid->state().interior(fluid->state().view().q[q]));
+    save_flow(*fluid, checkpoint);
     checkpoint.put("membrane.x", cells->x().to_host());
     checkpoint.put("membrane.y", cells->y().to_host());
     checkpoint.put("membrane.z", cells->z().to_host());
@@ -257,9 +281,7 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
 }
 
 void CoupledSystem::load(const output::Checkpoint& checkpoint) {
-    const std::size_t grid_cells = fluid->grid().view().layout.cells();
-    for (int q = 0; q < 4; ++q)
-        fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
+    load_flow(*fluid, checkpoint);
     load_positions(*cells, checkpoint);
     if (bodies) bodies->load(checkpoint);
     coupling::CellMemory memory;

@@ -204,8 +204,7 @@ class FluidRun {
         }
         if (system_.errors) compare(s);
         if (system_.bodies)
-            s.observables.merge(system_.bodies->observables(dynamic_cast<fluid::Solver&>(*system_.flow),
-                                                            files_.rows(), body_column_));
+            s.observables.merge(system_.bodies->observables(*system_.flow, files_.rows(), body_column_));
         if (case_.shear_rate) {
             const double strain = system_.plan.at(done_) * *case_.shear_rate;
             s.conservation.mean_density_per_strain = (system_.flow->mean_density() - first_density_) / strain;

@@ -16,10 +16,9 @@ namespace hemoflux::apps {
 
 class RigidBodies {
   public:
-    /// Builds the bodies and adds them to the loop. InputError when one reaches out of the box or its surface cannot
-    /// be read.
-    RigidBodies(const Case& c, const Scales& scales, const meshing::RectilinearGrid& grid,
-                coupling::Loop& loop);
+    /// Builds the bodies and adds them to the loop, which must outlive them. InputError when one reaches out of the grid
+    /// or its surface cannot be read. gamma: of the fluid's preconditioning.
+    RigidBodies(const Case& c, const Scales& scales, coupling::Loop& loop, double gamma = 1);
 
     /// "  body          name: 2562 nodes, 2.1 per cell face, ..." for the start-up summary, a line each.
     [[nodiscard]] std::string describe() const;
@@ -37,7 +36,7 @@ class RigidBodies {
     /// The pressure at a smeared surface is not its own: it is extrapolated by a parabola along the normal from 2, 3 and
     /// 4 cells outside, where no force of the nodes reaches.
     /// rows: those of the history; first: the first column of columns() in them; the second column is the time in s.
-    [[nodiscard]] std::map<std::string, double> observables(fluid::Solver& fluid,
+    [[nodiscard]] std::map<std::string, double> observables(fluid::Flow& fluid,
                                                             const std::vector<std::vector<double>>& rows,
                                                             std::size_t first) const;
 
@@ -59,6 +58,8 @@ class RigidBodies {
 
     const Case& case_;
     Scales scales_;
+    const coupling::FluidGrid& grid_;
+    double gamma_;
     std::vector<double> cell_;  ///< width of the cells around each body, um
     std::vector<std::unique_ptr<coupling::RigidBody>> bodies_;
 };

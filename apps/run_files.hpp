@@ -16,6 +16,7 @@
 #include "apps/output/summary.hpp"
 #include "apps/rigid_bodies.hpp"
 #include "apps/run.hpp"
+#include "coupling/loop.hpp"
 #include "exchange/error.hpp"
 #include "fluid/hex_solver.hpp"
 #include "fluid/solver.hpp"
@@ -45,12 +46,13 @@ class RunFiles {
 
     /// Opens the series, without the frames later than `position`.
     void start_series(double position);
-    /// Writes a flow on a mesh as the next frame.
-    void write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
-                    const meshing::HexMesh& mesh, double position);
     /// Writes the fluid and the cells and bodies (if any) as the next frame.
     void write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
                      const membrane::Batch* cells, const RigidBodies* bodies, double position);
+    /// The same for a flow on a mesh; loop: of the cells and bodies, if any.
+    void write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
+                    const meshing::HexMesh& mesh, const membrane::Batch* cells, const RigidBodies* bodies,
+                    const coupling::Loop* loop, double position);
 
     /// Writes a checkpoint with version, case, step and the history up to this step added.
     void write_checkpoint(output::Checkpoint checkpoint, long long step);
@@ -61,6 +63,10 @@ class RunFiles {
     [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
 
   private:
+    /// The surfaces of a frame, cells moved back into a box that repeats.
+    void write_surfaces(const membrane::Batch* cells, const RigidBodies* bodies, const coupling::NodeBox& box,
+                        double position);
+
     const Case& case_;
     std::optional<output::LatestCheckpoint> continued_;  // before the folder: a refused one changes nothing
     output::OutputFolder folder_;

@@ -187,7 +187,7 @@ void write_frame(RunFiles& files, const Case& c, const FluidSystem& system, doub
         files.write_frame(c, system.scales, *box, nullptr, system.bodies.get(), position);
     else
         files.write_flow(c, system.scales, dynamic_cast<const fluid::HexSolver&>(*system.flow),
-                         *system.domain.mesh, position);
+                         *system.domain.mesh, nullptr, system.bodies.get(), system.loop.get(), position);
 }
 
 }  // namespace hemoflux::apps

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "exchange/field.hpp"
 #include "exchange/vec3.hpp"
 #include "fluid/compact_model.hpp"
 
@@ -77,6 +78,9 @@ class Flow {
 
     /// The faces and boundary conditions as an implicit method sees them.
     [[nodiscard]] virtual CompactModel compact_model() const = 0;
+
+    /// Lays density, velocity, and force and viscosity where used, on the table as fluid.*.
+    virtual void offer(exchange::FieldTable& table) = 0;
 
     /// Residual evaluations since construction.
     [[nodiscard]] virtual std::size_t evaluations() const = 0;

@@ -69,8 +69,9 @@ struct HexFace {
         return s;
     }
 
-    /// Fluxes of mass and momentum x, y, z through the whole faces, from left to right. force: null, or records of four.
-    template <bool Force, bool Preconditioned>
+    /// Fluxes of mass and momentum x, y, z through the whole faces, from left to right. force: null, or records of force
+    /// and viscosity.
+    template <bool Force, bool Viscosity, bool Preconditioned>
     HEMOFLUX_INLINE void flux(const double* records, const double* force, const FlowParameters& parameters,
                               double inv_gamma, Value (&out)[4]) const {
         const Rotation<Value> r = rotation();
@@ -90,10 +91,12 @@ struct HexFace {
             }
             r.apply(f[0], f[1], f[2]);
         }
+        Value nu = Value(parameters.nu);
+        if constexpr (Viscosity)
+            nu = 0.5 * (lanes_of(force + 3, grid.left + first) + lanes_of(force + 3, grid.right + first));
         const FaceSide<Value> left = side(records, grid.left, r, face_reach_left);
         const FaceSide<Value> right = side(records, grid.right, r, face_reach_right);
-        const Quad<Value> q =
-            face_flux<Force, Preconditioned>(left, right, face, Value(parameters.nu), f, inv_gamma);
+        const Quad<Value> q = face_flux<Force, Preconditioned>(left, right, face, nu, f, inv_gamma);
         const Value area = field(face_area);
         for (int c = 0; c < 4; ++c) out[c] = area * q.c[c];
         r.invert(out[1], out[2], out[3]);

@@ -47,7 +47,7 @@ struct Gradients {
 };
 
 /// Fluxes through a chunk of faces.
-template <bool Force, bool Preconditioned>
+template <bool Force, bool Viscosity, bool Preconditioned>
 struct Fluxes {
     HexView grid;
     const double* records;
@@ -62,7 +62,7 @@ struct Fluxes {
         for (std::size_t p = chunk * pack_chunk; p < last; ++p) {
             const HexFace<Pack> face{grid, p * exchange::lanes<Pack>};
             Pack q[4];
-            face.template flux<Force, Preconditioned>(records, force, parameters, inv_gamma, q);
+            face.template flux<Force, Viscosity, Preconditioned>(records, force, parameters, inv_gamma, q);
             exchange::store_fours(flux + 4 * face.first, q);
         }
     }
@@ -111,12 +111,12 @@ struct Balances {
 
 std::size_t chunks(std::size_t n, std::size_t size) { return (n + size - 1) / size; }
 
-template <bool Force, bool Preconditioned>
+template <bool Force, bool Viscosity, bool Preconditioned>
 void launch_fluxes(const HexView& grid, const FlowParameters& p, const HexFields& fields) {
     const std::size_t packs = chunks(grid.faces, exchange::lanes<Pack>);
     exchange::for_each_index(chunks(packs, pack_chunk),
-                             Fluxes<Force, Preconditioned>{grid, fields.records, fields.force, fields.flux, p,
-                                                           1 / p.gamma, packs});
+                             Fluxes<Force, Viscosity, Preconditioned>{grid, fields.records, fields.force,
+                                                                      fields.flux, p, 1 / p.gamma, packs});
 }
 
 }  // namespace
@@ -128,12 +128,16 @@ void evaluate_gradients(const HexView& grid, const HexFields& fields) {
 void evaluate_fluxes(const HexView& grid, const HexBorderView& border, const FlowParameters& p,
                      const HexFields& fields) {
     const bool preconditioned = p.gamma != 1;
-    if (p.with_force)
-        preconditioned ? launch_fluxes<true, true>(grid, p, fields)
-                       : launch_fluxes<true, false>(grid, p, fields);
+    if (p.with_force) copy_to_ghosts(grid, fields.force);
+    if (p.with_viscosity)
+        preconditioned ? launch_fluxes<true, true, true>(grid, p, fields)
+                       : launch_fluxes<true, true, false>(grid, p, fields);
+    else if (p.with_force)
+        preconditioned ? launch_fluxes<true, false, true>(grid, p, fields)
+                       : launch_fluxes<true, false, false>(grid, p, fields);
     else
-        preconditioned ? launch_fluxes<false, true>(grid, p, fields)
-                       : launch_fluxes<false, false>(grid, p, fields);
+        preconditioned ? launch_fluxes<false, false, true>(grid, p, fields)
+                       : launch_fluxes<false, false, false>(grid, p, fields);
     exchange::for_each_index(border.count, PrescribedMass{grid, border, fields.flux}, exchange::Cost::cheap);
 }
 

@@ -16,17 +16,19 @@ namespace hemoflux::fluid {
 
 /// Fields of an unstructured flow, records in device memory; ghost cells follow the cells where there are any.
 struct HexFields {
-    double* values = nullptr;       ///< [cells + ghosts][4] density, velocity
-    const double* force = nullptr;  ///< [cells + ghosts][4] body force in the first three, or null
-    double* records = nullptr;      ///< [cells + ghosts][16] values, then d/dx, d/dy, d/dz of the four values
-    double* flux = nullptr;         ///< [padded faces][4] fluxes through the faces, mass and momentum
-    double* rate = nullptr;         ///< [cells][4] dQ/dt
+    double* values = nullptr;  ///< [cells + ghosts][4] density, velocity
+    /// [cells + ghosts][4] body force, then kinematic viscosity; or null
+    double* force = nullptr;
+    double* records = nullptr;  ///< [cells + ghosts][16] values, then d/dx, d/dy, d/dz of the four values
+    double* flux = nullptr;     ///< [padded faces][4] fluxes through the faces, mass and momentum
+    double* rate = nullptr;     ///< [cells][4] dQ/dt
 };
 
 /// Gradients of all cells into `records`; ghost values must be filled.
 void evaluate_gradients(const HexView& grid, const HexFields& fields);
 
-/// Fluxes from `records`, whose ghosts must be filled, into `flux`. parameters.with_viscosity is not read.
+/// Fluxes from `records`, whose ghosts must be filled, into `flux`; fills the ghosts of `force`. The viscosity of a face is the mean of its two cells'
+/// with parameters.with_viscosity, which needs with_force.
 void evaluate_fluxes(const HexView& grid, const HexBorderView& border, const FlowParameters& parameters,
                      const HexFields& fields);
 

@@ -92,8 +92,7 @@ class Solver final : public Flow {
     [[nodiscard]] const State& residual() const { return residual_; }
     [[nodiscard]] std::size_t evaluations() const override { return evaluations_; }
 
-    /// Lays density, velocity, and force and viscosity where used, on the table as fluid.*.
-    void offer(exchange::FieldTable& table) const;
+    void offer(exchange::FieldTable& table) override;
 
   private:
     [[nodiscard]] FlowParameters flow_parameters() const;

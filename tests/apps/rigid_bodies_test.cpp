@@ -8,6 +8,7 @@
 #include "apps/output/checkpoint.hpp"
 #include "apps/output/summary.hpp"
 #include "apps/rigid_surface.hpp"
+#include "coupling/cell_grid.hpp"
 #include "exchange/error.hpp"
 #include "meshing/surface_io.hpp"
 #include "tests/apps/program.hpp"
@@ -73,8 +74,7 @@ TEST(RigidBodies, ReadsATableWithItsDefaults) {
     EXPECT_DOUBLE_EQ(b.axis[2], 1);
     EXPECT_FALSE(b.density || b.nodes || b.stiffness || b.retraction);
     EXPECT_EQ(parse_case(c.resolved), c);
-    const meshing::RectilinearGrid grid = make_grid(c.grid);
-    const double h = cells_around(b, grid);
+    const double h = cells_around(b, coupling::CellGrid(make_grid(c.grid), {true, false, true}));
     EXPECT_DOUBLE_EQ(h, 1);
     EXPECT_EQ(make_surface(b, h).nodes.size(), 162u);  // 1.43 per um^2
     EXPECT_EQ(make_surface(b, 0.9 * h).nodes.size(), 642u);
@@ -99,7 +99,7 @@ TEST_F(RigidRun, IsRefusedBeforeAnyStep) {
     write("case.toml", body_case);
     const Outcome outside = run("run case.toml -o a --set 'body.0.position=[\"0 um\", \"6 um\", \"0 um\"]'");
     EXPECT_EQ(outside.code, 2);
-    EXPECT_NE(outside.text.find("reaches through the side \"y+\""), std::string::npos);
+    EXPECT_NE(outside.text.find("reaches through the border of the grid"), std::string::npos);
     EXPECT_FALSE(fs::exists(folder_ / "a"));
     const Outcome light =
         run("run case.toml -o a --set body.0.motion=free --set 'body.0.density=\"500 kg/m^3\"'");

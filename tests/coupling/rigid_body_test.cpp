@@ -46,7 +46,7 @@ struct Partners {
         fluid->initialise([&](const Vec3d& x) { return fluid::FlowPoint{1, shear(x)}; });
         loop = std::make_unique<Loop>(*fluid, Kernel::lagrange);
         BodySurface surface = closed_surface(meshing::icosphere(s.level, s.radius));
-        retract(surface, loop->grid().view(), s.start.centre, s.retraction);
+        retract(surface, loop->grid(), s.start.centre, s.retraction);
         body = std::make_unique<RigidBody>(std::move(surface), loop->grid(), s.body, s.start);
         loop->add(*body);
     }
@@ -129,7 +129,7 @@ TEST(BodySurface, RetractsByAShareOfTheCellsAlongTheNormal) {
     const CellGrid cells(grid, {false, false, false});
     BodySurface s = closed_surface(meshing::icosphere(3, 4));
     const BodySurface before = s;
-    retract(s, cells.view(), {0.1, 0, 0}, 0.3);
+    retract(s, cells, {0.1, 0, 0}, 0.3);
     for (std::size_t j = 0; j < s.nodes.size(); ++j) {
         const Vec3d n = s.normals[j];
         const double expected = 0.3 * std::sqrt(n.x * n.x + 0.25 * n.y * n.y + 4 * n.z * n.z);
