@@ -7,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/interrupt.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/suspension_observer.hpp"
@@ -56,7 +55,7 @@ class CoupledRun {
         system_.add_cells(case_, files_.restart());
         observer_.emplace(*system_.cells);
         if (SuspensionObserver::wanted(case_)) suspension_.emplace(case_, system_);
-        catch_interrupts();
+        prepare_stop(options_);
         files_.log().info(describe(case_, system_));
         if (files_.restart()) {
             system_.load(*files_.restart());
@@ -102,7 +101,8 @@ class CoupledRun {
             system_.loop->step(system_.numerics.step);
             ++done_;
             const bool save = last || due(system_.plan, done_, case_.output.checkpoint_interval_strain);
-            const bool stop = interrupted();
+            const bool stop =
+                stop_asked(options_, {done_, system_.plan.at(done_), system_.plan.at(system_.plan.steps)});
             if (row || save || stop || done_ % watch_interval == 0) system_.loop->check();
             if (row) record(system_.numerics.step);
             if (write) frame();

@@ -8,7 +8,6 @@
 
 #include "apps/flow_observer.hpp"
 #include "apps/fluid_system.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/output/convergence_plot.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
@@ -49,7 +48,7 @@ class FluidRun {
     }
 
     void begin() {
-        catch_interrupts();
+        prepare_stop(options_);
         files_.log().info(fmt::format("{}\n  step          {} steps of {:.4g} s", describe(case_, system_),
                                       system_.plan.steps, system_.plan.step));
         if (files_.restart()) {
@@ -101,7 +100,9 @@ class FluidRun {
             observe();
             const bool last = done_ == system_.plan.steps || settled(),
                        frame = last || due(system_.plan, done_, frames);
-            const bool row = frame || due(system_.plan, done_, rows), stop = interrupted();
+            const bool row = frame || due(system_.plan, done_, rows),
+                       stop = stop_asked(
+                           options_, {done_, system_.plan.at(done_), system_.plan.at(system_.plan.steps)});
             if (row || stop || done_ % watch_interval == 0) check(good, good_step);
             if (row) record();
             if (frame) {

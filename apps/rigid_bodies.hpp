@@ -14,6 +14,7 @@
 
 namespace hemoflux::apps {
 
+/// The bodies of a run in the units of its case.
 class RigidBodies {
   public:
     /// Builds the bodies and adds them to the loop, which must outlive them. InputError when one reaches out of the grid
@@ -23,12 +24,12 @@ class RigidBodies {
     /// "  body          name: 2562 nodes, 2.1 per cell face, ..." for the start-up summary, a line each.
     [[nodiscard]] std::string describe() const;
 
-    /// Columns of history.csv and their values: per body `name.` x_um, y_um, z_um, force_x_N to torque_z_Nm of the
-    /// fluid on it, angular_x_1_per_s to z, axis_x to z, no_slip_um_per_s.
+    /// Columns of history.csv and their values: per body, behind its name and a dot, x_um, y_um, z_um, force_x_N to
+    /// torque_z_Nm of the fluid on it, angular_x_1_per_s to z, axis_x to z, no_slip_um_per_s.
     [[nodiscard]] std::vector<std::string> columns() const;
     [[nodiscard]] std::vector<double> row() const;
 
-    /// Observables at the end of a run. For the first body without a prefix, for others with `name.`: drag_coefficient,
+    /// Observables at the end of a run, of all but the first body behind its name and a dot: drag_coefficient,
     /// lift_coefficient, force_x_N .. torque_z_Nm, angular_velocity_z_1_per_s, no_slip_error (root mean square over the
     /// surface of the difference between the fluid's and the body's velocity, over `speed` or the largest speed of the
     /// surface or the flow), pressure_difference_pa between the ends of the body in the drag direction, and, where the

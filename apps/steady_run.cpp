@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/interrupt.hpp"
 #include "apps/output/convergence_plot.hpp"
 #include "exchange/error.hpp"
 #include "fluid/probe.hpp"
@@ -52,10 +51,10 @@ void start_from(const std::filesystem::path& folder, FluidSystem& system) {
 class SteadyRun {
   public:
     SteadyRun(const Case& c, const RunOptions& options)
-        : case_(c), system_(started(c)), observer_(make_observer()), files_(c, options) {}
+        : case_(c), options_(options), system_(started(c)), observer_(make_observer()), files_(c, options) {}
 
     int go() {
-        catch_interrupts();
+        prepare_stop(options_);
         files_.log().info(describe(case_, system_));
         if (!system_.reasoning.empty()) files_.log().info(system_.reasoning);
         files_.start_history({"step", "measure", "residual_density", "residual_u", "residual_v", "residual_w",
@@ -91,7 +90,9 @@ class SteadyRun {
         const fluid::SteadyOptions options = steady_options(*case_.steady);
         result_ = fluid::find_steady_state(*system_.flow, options, [&](const fluid::SteadyRecord& r) {
             if (options.method == fluid::SteadyMethod::newton || r.iteration % row_interval == 1) record(r);
-            return !interrupted();
+            const auto iteration = static_cast<long long>(r.iteration);
+            return !stop_asked(options_, {iteration, static_cast<double>(iteration),
+                                          static_cast<double>(options.most_iterations)});
         });
         if (options.method != fluid::SteadyMethod::newton) record(result_.last);
         files_.log().info(fmt::format("{}: {} iterations, {} residual evaluations, measure {:.3g}",
@@ -165,6 +166,7 @@ class SteadyRun {
     }
 
     const Case& case_;
+    const RunOptions& options_;
     FluidSystem system_;
     std::optional<FlowObserver> observer_;
     RunFiles files_;

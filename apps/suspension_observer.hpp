@@ -15,6 +15,7 @@
 
 namespace hemoflux::apps {
 
+/// Follows all cells of a suspension together.
 class SuspensionObserver {
   public:
     /// Whether a case has anything to show.

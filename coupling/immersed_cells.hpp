@@ -47,6 +47,7 @@ struct CellMemory {
     bool operator==(const CellMemory&) const = default;
 };
 
+/// The membrane cells of a batch as one partner of the fluid.
 class ImmersedCells final : public Immersed {
   public:
     /// `grid` and `cells` must outlive it. InputError unless there is a pull for every node of the batch or for none.

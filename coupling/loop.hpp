@@ -46,6 +46,7 @@ struct NodalForce {
     double gross = 0;
 };
 
+/// Advances a fluid and its partners together; which they are is fixed before the first step.
 class Loop {
   public:
     /// A loop with nothing immersed yet; the fluid must outlive it and needs a force field. InputError where its grid

@@ -51,6 +51,7 @@ struct BodyForces {
     Vec3d force{0, 0, 0}, torque{0, 0, 0};
 };
 
+/// One rigid body as a partner of the fluid: held, moved, turning freely or free.
 class RigidBody final : public Immersed {
   public:
     /// start: where the body is and its (given or first) velocities. InputError when an option is out of range or an

@@ -33,6 +33,7 @@ struct NewtonOptions {
     std::optional<std::uint32_t> fill;
 };
 
+/// Newton steps of pseudo-transient continuation, each solved by GMRES without a matrix.
 class NewtonKrylov {
   public:
     /// What a step did.

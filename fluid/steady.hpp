@@ -49,6 +49,7 @@ struct SteadyRecord {
 /// How a steady run ended.
 enum class SteadyEnd { converged, most_iterations, stalled, interrupted };
 
+/// What a steady run came to.
 struct SteadyResult {
     SteadyEnd end = SteadyEnd::most_iterations;
     SteadyRecord last;
