@@ -238,7 +238,7 @@ class CoupledRun {
         files_.log().info(output::to_table(s));
         plot_inclination();
         if (system_.domain.box) draw_pictures(case_, files_, "strain");
-        files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+        files_.log().info(closing_line(files_.folder().path()));
     }
 
     void plot_inclination() const {

@@ -221,7 +221,7 @@ class FluidRun {
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         draw();
-        files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+        files_.log().info(closing_line(files_.folder().path()));
     }
 
     void draw() {

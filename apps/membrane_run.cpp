@@ -140,6 +140,7 @@ int run_membrane(const Case& c, const RunOptions& options) {
     const output::OutputFolder folder(options.output, output::Folder::fresh);
     const output::Log log(folder.log(), options.quiet);
     output::write_file(folder.resolved(), c.resolved);
+    note_environment(log);
     output::Summary summary = start_summary(c);
     MembraneRun run{c,
                     folder,
@@ -157,6 +158,7 @@ int run_membrane(const Case& c, const RunOptions& options) {
         summary.performance.peak_rss_mib = output::peak_rss_mib();
         output::write_summary(folder.summary(), summary);
         log.info(output::to_table(summary));
+        log.info(closing_line(folder.path()));
         return static_cast<int>(Exit::done);
     });
 }

@@ -9,6 +9,7 @@
 #include "apps/output/atomic_file.hpp"
 #include "apps/output/pictures.hpp"
 #include "apps/output/vtk_writer.hpp"
+#include "apps/speed.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
@@ -153,6 +154,7 @@ RunFiles::RunFiles(const Case& c, const RunOptions& options)
         log_.info(fmt::format("continuing from {} (step {})", continued_->path.string(), first_step_));
     }
     output::write_file(folder_.resolved(), c.resolved);
+    note_environment(log_);
 }
 
 void RunFiles::start_history(const std::vector<std::string>& columns) {
@@ -257,6 +259,16 @@ output::Summary start_summary(const Case& c) {
     for (const ReferenceInput& r : c.references)
         if (!of_sweep(r)) summary.references[r.observable] = {r.value, r.low, r.high, r.source};
     return summary;
+}
+
+void note_environment(const output::Log& log) {
+    const Machine m = this_machine();
+    log.detail(fmt::format("{}   version {}; backend {}; threads {}; cores {}; processor {}",
+                           environment_word, HEMOFLUX_VERSION, m.backend, m.threads, m.cores, m.processor));
+}
+
+std::string closing_line(const std::filesystem::path& folder) {
+    return fmt::format("results are in {0}; hemoflux report {0} makes a page of them", folder.string());
 }
 
 void draw_pictures(const Case& c, const RunFiles& files, const std::string& time_label) {

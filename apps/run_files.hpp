@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/case.hpp"
@@ -91,6 +92,16 @@ int watched(const output::Log& log, const March& march) {
 
 /// A summary with case, version, backend, threads and references filled in.
 output::Summary start_summary(const Case& c);
+
+/// With this word the line of the log begins that names version, backend, threads, cores and processor, parted by
+/// semicolons: "environment   version 0.1.0; backend OMP; ...".
+constexpr std::string_view environment_word = "environment";
+
+/// Notes in the log file, and only there, what computes.
+void note_environment(const output::Log& log);
+
+/// The last line of a run: where its results are and how a page comes of them.
+std::string closing_line(const std::filesystem::path& folder);
 
 /// Pictures of the frames, whose times are labelled time_label, and the log line if there are none; never fails.
 void draw_pictures(const Case& c, const RunFiles& files, const std::string& time_label);

@@ -53,9 +53,10 @@ void remove_run(const fs::path& path) {
 
 bool is_run_file(const std::string& name) {
     constexpr std::string_view fixed[] = {
-        "resolved.toml", "summary.json",     "history.csv",      "stretch.csv",   "shapes.csv", "moduli.csv",
-        "recovery.csv",  "errors.csv",       "calibration.csv",  "thickness.csv", "log.txt",    "fluid.pvd",
-        "cells.pvd",     "centreline_u.csv", "centreline_v.csv", "wall.csv",      "fields.vtr", "fields.vtu"};
+        "resolved.toml", "summary.json", "history.csv", "stretch.csv",      "shapes.csv",
+        "moduli.csv",    "recovery.csv", "errors.csv",  "calibration.csv",  "thickness.csv",
+        "log.txt",       "fluid.pvd",    "cells.pvd",   "centreline_u.csv", "centreline_v.csv",
+        "wall.csv",      "fields.vtr",   "fields.vtu",  "report.html"};
     if (std::find(std::begin(fixed), std::end(fixed), name) != std::end(fixed)) return true;
     if (name.starts_with('.') && name.ends_with(".tmp")) return true;
 
