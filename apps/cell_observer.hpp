@@ -58,7 +58,9 @@ class CellObserver {
     std::vector<double> turned_;                            // unwrapped tank-treading angle, rad
     membrane::Diameters last_;
     double volume_error_ = 0, area_error_ = 0, centroid_distance_ = 0;
-    std::vector<double> strain_, inclination_, angle_, taylor_, index_;  // per record, cells side by side
+    // per record, cells side by side
+    std::vector<double> strain_, inclination_, angle_, taylor_, taylor_volume_, taylor_extent_, index_,
+        ellipse_;
 };
 
 }  // namespace hemoflux::apps

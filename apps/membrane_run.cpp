@@ -76,6 +76,8 @@ void MembraneRun::describe(const membrane::Batch& batch, const std::string& pref
         put(("gyration_" + std::to_string(i + 1) + "_um").c_str(), std::sqrt(moments.moments[i]));
     put("deformation_index", membrane::minimum_rectangle(positions).deformation_index());
     put("taylor_d", membrane::taylor_deformation(moments));
+    put("taylor_d_volume", membrane::taylor_deformation_volume(moments));
+    put("taylor_d_extent", membrane::taylor_deformation_extent(positions, moments.centroid));
     put("area_offset", moments.area / batch.reference().area - 1);
     put("volume_offset", moments.volume / batch.reference().volume - 1);
     put("energy_aJ", energy.total() * attojoule_per_unit);

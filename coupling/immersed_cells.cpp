@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "exchange/error.hpp"
 #include "membrane/diagnostics.hpp"
@@ -124,10 +126,15 @@ void ImmersedCells::check() {
 }
 
 void ImmersedCells::report_lost(std::size_t node) const {
-    throw NumericalError(
-        fmt::format("membrane node {} of cell {}", node % cells_.stride(), node / cells_.stride()),
-        "it has left the box or its position is no longer a number",
-        "enlarge the box, set coupling.recentre, or shorten numerics.step_strain");
+    const std::size_t cell = node / cells_.stride(), vertex = node % cells_.stride();
+    const std::string name = fmt::format("membrane node {} of cell {}", vertex, cell);
+    const Vec3d at = cells_.positions(cell)[vertex];
+    if (!std::isfinite(norm(at)))
+        throw NumericalError(name, "its position is no longer a number; the step is probably too long",
+                             "shorten numerics.step_strain");
+    throw NumericalError(fmt::format("{} at ({:.3f}, {:.3f}, {:.3f}) um", name, at.x, at.y, at.z),
+                         "it has left the box; the cell has drifted or grown as long as the box",
+                         "set coupling.recentre if it drifts, or enlarge the box");
 }
 
 CellMemory ImmersedCells::memory() const {

@@ -71,16 +71,33 @@ TEST_F(Run, LeavesTheDocumentedFolder) {
                              "fluid_0000.vtr", "cells.pvd", "cells_0000.vtp"})
         EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
     const Table history = output::read_table(folder_ / "out/history.csv");
-    EXPECT_EQ(history.columns, (std::vector<std::string>{
-                                   "step", "time_s", "strain", "0.x_um", "0.y_um", "0.z_um",
-                                   "0.inclination_deg", "0.tank_treading_deg", "0.taylor_d", "0.axial_um",
-                                   "0.transverse_um", "0.area_error", "0.volume_error", "0.energy_aJ",
-                                   "0.deformation_index_pct", "mean_density", "residual", "dt_s"}));
+    EXPECT_EQ(history.columns, (std::vector<std::string>{"step",
+                                                         "time_s",
+                                                         "strain",
+                                                         "0.x_um",
+                                                         "0.y_um",
+                                                         "0.z_um",
+                                                         "0.inclination_deg",
+                                                         "0.tank_treading_deg",
+                                                         "0.taylor_d",
+                                                         "0.axial_um",
+                                                         "0.transverse_um",
+                                                         "0.area_error",
+                                                         "0.volume_error",
+                                                         "0.energy_aJ",
+                                                         "0.deformation_index_pct",
+                                                         "0.taylor_d_volume",
+                                                         "0.taylor_d_extent",
+                                                         "0.deformation_index_ellipse_pct",
+                                                         "mean_density",
+                                                         "residual",
+                                                         "dt_s"}));
     EXPECT_NEAR(history.column("strain").back(), 0.2, 1e-12);
     EXPECT_NEAR(history.column("time_s").back(), 0.2 / 3, 1e-12);
     EXPECT_EQ(history.rows.size(), 5u);  // every 0.05
     const output::Summary s = summary("out");
-    for (const char* name : {"inclination_deg", "period_strain", "taylor_d", "strain"})
+    for (const char* name :
+         {"inclination_deg", "period_strain", "taylor_d", "taylor_d_volume", "taylor_d_extent", "strain"})
         EXPECT_TRUE(std::isfinite(s.observables.at(name))) << name;
     EXPECT_LT(s.conservation.volume, 2e-4);
     EXPECT_LT(s.conservation.area, 5e-4);
