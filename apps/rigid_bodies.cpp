@@ -198,6 +198,12 @@ RigidBodies::Frame RigidBodies::frame() const {
     return frame;
 }
 
+std::vector<coupling::RigidBody*> RigidBodies::all() const {
+    std::vector<coupling::RigidBody*> pointers;
+    for (const auto& body : bodies_) pointers.push_back(body.get());
+    return pointers;
+}
+
 void RigidBodies::save(output::Checkpoint& checkpoint) const {
     for (const auto& body : bodies_) {
         const coupling::BodyMemory m = body->memory();

@@ -122,26 +122,34 @@ double fluid_speed(const RigidInput& b, const coupling::BodyState& state, fluid:
 
 double pressure_difference(const coupling::RigidBody& body, const Vec3d& direction,
                            const fluid::Solver& fluid, const fluid::Probe& probe) {
-    const Vec3d centre = body.state().centre;
-    const coupling::Matrix3 turn = coupling::rotation(body.state().orientation);
+    const coupling::BodyState& state = body.state();
+    const coupling::Matrix3 turn = coupling::rotation(state.orientation);
     double end = 0;
     for (const Vec3d& x : body.surface().mesh.vertices) end = std::max(end, dot(turn * x, direction));
     const auto& axes = fluid.grid().rectilinear().axes;
-    const double gamma = fluid.options().gamma;
+    const fluid::SolverOptions& o = fluid.options();
+    const Vec3d force{o.uniform_force[0], o.uniform_force[1], o.uniform_force[2]};
     double pressure[2];
     for (const int side : {0, 1}) {
-        const Vec3d outward = side == 0 ? -direction : direction, surface = centre + end * outward;
+        const Vec3d outward = side == 0 ? -direction : direction, surface = state.centre + end * outward;
+        const Vec3d wall = state.velocity + cross(state.angular_velocity, end * outward);
         const Vec3d widths{width_at(axes[0], surface.x), width_at(axes[1], surface.y),
                            width_at(axes[2], surface.z)};
         const double h = norm(Vec3d{outward.x * widths.x, outward.y * widths.y, outward.z * widths.z});
-        double p[3];
+        double p[3], bend[3];
         for (int k = 0; k < 3; ++k) {
-            const Vec3d at = surface + ((k + 2) * h) * outward;
+            const double n = k + 2;
+            const Vec3d at = surface + (n * h) * outward;
             for (std::size_t d = 0; d < 3; ++d)
                 if (component(at, d) < axes[d].lower() || component(at, d) > axes[d].upper()) return NAN;
-            p[k] = gamma * (probe(at)[0] - 1) / 3;
+            const std::array<double, 4> q = probe(at);
+            p[k] = o.gamma * (q[0] - 1) / 3;
+            bend[k] = dot(Vec3d{q[1], q[2], q[3]} - wall, outward) / (n * n);
         }
-        pressure[side] = 6 * p[0] - 8 * p[1] + 3 * p[2];  // parabola through 2, 3, 4 taken at 0
+        const double a = 6 * bend[0] - 8 * bend[1] + 3 * bend[2];  // parabola through 2, 3, 4 taken at 0
+        const double slope = 2 * a * o.nu / h + h * dot(force - state.acceleration, outward);
+        for (int k = 0; k < 3; ++k) p[k] -= (k + 2) * slope;
+        pressure[side] = (36 * p[0] - 32 * p[1] + 9 * p[2]) / 13;  // b + c n^2 + d n^3 taken at 0
     }
     return pressure[0] - pressure[1];
 }
