@@ -178,7 +178,7 @@ const Table& case_schema() {
          {"steady",
           {table(steady_table())},
           "",
-          "kind fluid: iterates to the steady state, in place of [time]"},
+          "kind fluid: iterates to the steady state, in place of [time]; also with bodies, which are held"},
          {"analytical", {table(analytical_table())}, "", "kind fluid"},
          {"sweep", {table(sweep_table())}, "", "optional"},
          {"cell", {table(cell_table()).of(Form::any)}, "", "kinds coupled and membrane"},

@@ -8,7 +8,8 @@ Table rigid_body_table() {
     return {
         "body",
         "One rigid body each, immersed in the fluid (chapter 5), in a box of cells or a mesh. Kinds fluid "
-        "and coupled.",
+        "and coupled; with [steady], in a box, it is held, and its forces are unknowns of the implicit "
+        "method.",
         {{"name", {text()}, "\"\"", "what files and observables of several bodies call it"},
          {"shape",
           {choice({"sphere", "spheroid", "cylinder"})},

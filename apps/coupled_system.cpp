@@ -256,7 +256,9 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
     }
     loop = make_loop(c, pull_of(c, *cells, checkpoint));
     if (!checkpoint) check_places(*cells, *loop);
-    if (!c.bodies.empty()) bodies = std::make_unique<RigidBodies>(c, scales, *loop);
+    if (!c.bodies.empty())
+        bodies = std::make_unique<RigidBodies>(
+            c, scales, *loop, box_solver() ? box_solver()->options() : mesh_solver()->options());
 }
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {

@@ -120,7 +120,7 @@ FluidSystem::FluidSystem(const Case& c)
             loop = std::make_unique<coupling::Loop>(dynamic_cast<fluid::Solver&>(*flow), kernel);
         else
             loop = std::make_unique<coupling::Loop>(dynamic_cast<fluid::HexSolver&>(*flow), kernel);
-        bodies = std::make_unique<RigidBodies>(c, scales, *loop, options().gamma);
+        bodies = std::make_unique<RigidBodies>(c, scales, *loop, options());
     }
     if (!c.analytical) return;
     errors.emplace(c, *domain.box, scales, plan);

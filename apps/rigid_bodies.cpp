@@ -67,8 +67,9 @@ constexpr std::size_t columns_per_body = std::size(motion_columns), axis_column 
 
 }  // namespace
 
-RigidBodies::RigidBodies(const Case& c, const Scales& scales, coupling::Loop& loop, double gamma)
-    : case_(c), scales_(scales), grid_(loop.grid()), gamma_(gamma) {
+RigidBodies::RigidBodies(const Case& c, const Scales& scales, coupling::Loop& loop,
+                         const fluid::SolverOptions& fluid)
+    : case_(c), scales_(scales), grid_(loop.grid()), fluid_(fluid) {
     for (std::size_t i = 0; i < c.bodies.size(); ++i) {
         const RigidInput& in = c.bodies[i];
         const double h = cells_around(in, grid_);
@@ -163,7 +164,7 @@ std::map<std::string, double> RigidBodies::observables(fluid::Flow& fluid,
         }
         put("no_slip_error", body.slip() / speed);
         put("pressure_difference_pa",
-            gamma_ * pressure_difference(body, vec(in.drag_direction), grid_, *probe) * scales_.pressure_pa);
+            pressure_difference(body, vec(in.drag_direction), grid_, fluid_, *probe) * scales_.pressure_pa);
         if (std::hypot(axis(i).x, axis(i).y) < smallest_projection) continue;
         std::vector<double> time, angle;
         for (const auto& r : rows) {
@@ -195,6 +196,12 @@ RigidBodies::Frame RigidBodies::frame() const {
             frame.forces_pn.push_back((newton() * piconewton * body->surface().areas[j]) * t[j]);
     }
     return frame;
+}
+
+std::vector<coupling::RigidBody*> RigidBodies::all() const {
+    std::vector<coupling::RigidBody*> pointers;
+    for (const auto& body : bodies_) pointers.push_back(body.get());
+    return pointers;
 }
 
 void RigidBodies::save(output::Checkpoint& checkpoint) const {

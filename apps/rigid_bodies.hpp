@@ -18,8 +18,8 @@ namespace hemoflux::apps {
 class RigidBodies {
   public:
     /// Builds the bodies and adds them to the loop, which must outlive them. InputError when one reaches out of the grid
-    /// or its surface cannot be read. gamma: of the fluid's preconditioning.
-    RigidBodies(const Case& c, const Scales& scales, coupling::Loop& loop, double gamma = 1);
+    /// or its surface cannot be read. fluid: its options.
+    RigidBodies(const Case& c, const Scales& scales, coupling::Loop& loop, const fluid::SolverOptions& fluid);
 
     /// "  body          name: 2562 nodes, 2.1 per cell face, ..." for the start-up summary, a line each.
     [[nodiscard]] std::string describe() const;
@@ -34,8 +34,7 @@ class RigidBodies {
     /// surface of the difference between the fluid's and the body's velocity, over `speed` or the largest speed of the
     /// surface or the flow), pressure_difference_pa between the ends of the body in the drag direction, and, where the
     /// body's axis has turned by more than half a turn in the xy plane, orbit_period_s and orbit_period_strain.
-    /// The pressure at a smeared surface is not its own: it is extrapolated by a parabola along the normal from 2, 3 and
-    /// 4 cells outside, where no force of the nodes reaches.
+    /// The pressure at a smeared surface is not its own: see pressure_difference() in rigid_surface.hpp.
     /// rows: those of the history; first: the first column of columns() in them; the second column is the time in s.
     [[nodiscard]] std::map<std::string, double> observables(fluid::Flow& fluid,
                                                             const std::vector<std::vector<double>>& rows,
@@ -52,6 +51,7 @@ class RigidBodies {
     void load(const output::Checkpoint& checkpoint);
 
     [[nodiscard]] std::size_t size() const { return bodies_.size(); }
+    [[nodiscard]] std::vector<coupling::RigidBody*> all() const;
 
   private:
     [[nodiscard]] double newton() const { return scales_.pressure_pa * 1e-12; }
@@ -60,7 +60,7 @@ class RigidBodies {
     const Case& case_;
     Scales scales_;
     const coupling::FluidGrid& grid_;
-    double gamma_;
+    fluid::SolverOptions fluid_;
     std::vector<double> cell_;  ///< width of the cells around each body, um
     std::vector<std::unique_ptr<coupling::RigidBody>> bodies_;
 };

@@ -107,22 +107,31 @@ double fluid_speed(const RigidInput& b, const coupling::BodyState& state, fluid:
 }
 
 double pressure_difference(const coupling::RigidBody& body, const Vec3d& direction,
-                           const coupling::FluidGrid& grid, const fluid::Probe& probe) {
-    const Vec3d centre = body.state().centre;
-    const coupling::Matrix3 turn = coupling::rotation(body.state().orientation);
+                           const coupling::FluidGrid& grid, const fluid::SolverOptions& fluid,
+                           const fluid::Probe& probe) {
+    const coupling::BodyState& state = body.state();
+    const coupling::Matrix3 turn = coupling::rotation(state.orientation);
     double end = 0;
     for (const Vec3d& x : body.surface().mesh.vertices) end = std::max(end, dot(turn * x, direction));
+    const Vec3d force{fluid.uniform_force[0], fluid.uniform_force[1], fluid.uniform_force[2]};
     double pressure[2];
     for (const int side : {0, 1}) {
-        const Vec3d outward = side == 0 ? -direction : direction, surface = centre + end * outward;
+        const Vec3d outward = side == 0 ? -direction : direction, surface = state.centre + end * outward;
+        const Vec3d wall = state.velocity + cross(state.angular_velocity, end * outward);
         const double h = grid.width(surface, outward);
-        double p[3];
+        double p[3], bend[3];
         for (int k = 0; k < 3; ++k) {
-            const Vec3d at = surface + ((k + 2) * h) * outward;
+            const double n = k + 2;
+            const Vec3d at = surface + (n * h) * outward;
             if (!grid.contains(at)) return NAN;
-            p[k] = (probe(at)[0] - 1) / 3;
+            const std::array<double, 4> q = probe(at);
+            p[k] = fluid.gamma * (q[0] - 1) / 3;
+            bend[k] = dot(Vec3d{q[1], q[2], q[3]} - wall, outward) / (n * n);
         }
-        pressure[side] = 6 * p[0] - 8 * p[1] + 3 * p[2];  // parabola through 2, 3, 4 taken at 0
+        const double a = 6 * bend[0] - 8 * bend[1] + 3 * bend[2];  // parabola through 2, 3, 4 taken at 0
+        const double slope = 2 * a * fluid.nu / h + h * dot(force - state.acceleration, outward);
+        for (int k = 0; k < 3; ++k) p[k] -= (k + 2) * slope;
+        pressure[side] = (36 * p[0] - 32 * p[1] + 9 * p[2]) / 13;  // b + c n^2 + d n^3 taken at 0
     }
     return pressure[0] - pressure[1];
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "apps/output/convergence_plot.hpp"
+#include "coupling/held_bodies.hpp"
 #include "exchange/error.hpp"
 #include "fluid/probe.hpp"
 #include "fluid/steady.hpp"
@@ -51,7 +52,12 @@ void start_from(const std::filesystem::path& folder, FluidSystem& system) {
 class SteadyRun {
   public:
     SteadyRun(const Case& c, const RunOptions& options)
-        : case_(c), options_(options), system_(started(c)), observer_(make_observer()), files_(c, options) {}
+        : case_(c),
+          options_(options),
+          system_(started(c)),
+          held_(hold()),
+          observer_(make_observer()),
+          files_(c, options) {}
 
     int go() {
         prepare_stop(options_);
@@ -80,6 +86,13 @@ class SteadyRun {
         return system;
     }
 
+    std::unique_ptr<coupling::HeldBodies> hold() {
+        if (!system_.bodies) return nullptr;
+        return std::make_unique<coupling::HeldBodies>(dynamic_cast<fluid::Solver&>(*system_.flow),
+                                                      kernel_of(case_.coupling.kernel),
+                                                      system_.bodies->all());
+    }
+
     std::optional<FlowObserver> make_observer() {
         if (!case_.observables) return std::nullopt;
         return FlowObserver(case_, system_.scales, system_.domain.bounds, system_.options().gamma,
@@ -88,12 +101,14 @@ class SteadyRun {
 
     int iterate() {
         const fluid::SteadyOptions options = steady_options(*case_.steady);
-        result_ = fluid::find_steady_state(*system_.flow, options, [&](const fluid::SteadyRecord& r) {
+        const auto each = [&](const fluid::SteadyRecord& r) {
             if (options.method == fluid::SteadyMethod::newton || r.iteration % row_interval == 1) record(r);
             const auto iteration = static_cast<long long>(r.iteration);
             return !stop_asked(options_, {iteration, static_cast<double>(iteration),
                                           static_cast<double>(options.most_iterations)});
-        });
+        };
+        result_ = fluid::find_steady_state(*system_.flow, options, each, held_.get());
+        if (held_) held_->settle();
         if (options.method != fluid::SteadyMethod::newton) record(result_.last);
         files_.log().info(fmt::format("{}: {} iterations, {} residual evaluations, measure {:.3g}",
                                       fluid::describe(result_.end), result_.last.iteration,
@@ -113,6 +128,7 @@ class SteadyRun {
         write_frame(files_, case_, system_, 0);
         output::Checkpoint checkpoint;
         save_flow(*system_.flow, checkpoint);
+        if (system_.bodies) system_.bodies->save(checkpoint);
         files_.write_checkpoint(checkpoint, static_cast<long long>(result_.last.iteration));
     }
 
@@ -133,6 +149,7 @@ class SteadyRun {
             if (!text.empty()) files_.log().warn(text);
         };
         if (observer_) warn(observer_->observe(s, files_.folder()));
+        if (system_.bodies) s.observables.merge(system_.bodies->observables(*system_.flow, {}, 0));
         if (system_.errors) {
             system_.errors->observe(*system_.flow, 0);
             system_.errors->report(s);
@@ -168,6 +185,7 @@ class SteadyRun {
     const Case& case_;
     const RunOptions& options_;
     FluidSystem system_;
+    std::unique_ptr<coupling::HeldBodies> held_;  ///< where the case has bodies
     std::optional<FlowObserver> observer_;
     RunFiles files_;
     fluid::SteadyResult result_;

@@ -69,13 +69,18 @@ void check_finite(Flow& flow, const SteadyRecord& record) {
 
 }  // namespace
 
-SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer) {
+SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer,
+                               Constraint* constraint) {
     if (!(options.tolerance > 0))
         throw InputError(fmt::format("tolerance {}", options.tolerance), "a residual never falls to zero",
                          "give a positive tolerance");
     const double start = processor_seconds();
     const std::size_t before = flow.evaluations();
     const bool implicit = options.method == SteadyMethod::newton;
+    if (constraint && !implicit)
+        throw InputError("local time steps with a constraint",
+                         "its forces are unknowns that only the implicit method solves for",
+                         "use the implicit method");
     const std::size_t patience = implicit ? options.newton_patience : options.patience;
     Measure measure(flow, options.criterion);
     std::optional<NewtonKrylov> newton;
@@ -85,9 +90,9 @@ SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const S
         SteadyRecord record;
         record.iteration = iteration;
         bool moved = true;
-        if (implicit && iteration > 1) {
+        if (constraint || (implicit && iteration > 1)) {
             if (!newton) {
-                newton.emplace(flow, options.newton);
+                newton.emplace(flow, options.newton, constraint);
                 result.bytes = newton->bytes();
             }
             const NewtonKrylov::Step step = newton->step();
@@ -100,7 +105,10 @@ SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const S
             record.courant = options.sigma;
         }
         record.residual = flow.residual_norm();
-        record.measure = moved ? measure(record.residual) : result.last.measure;
+        if (constraint)
+            record.measure = newton->relative_residual();
+        else
+            record.measure = moved ? measure(record.residual) : result.last.measure;
         record.evaluations = flow.evaluations() - before;
         record.seconds = processor_seconds() - start;
         check_finite(flow, record);
