@@ -78,10 +78,10 @@ class HexSolver final : public Flow {
     meshing::HexGrid grid_;
     HexGeometry geometry_;
     HexBoundary boundary_;
-    /// Records and fluxes are scratch that every evaluation fills, and so are the ghost cells behind the values.
+    /// Records and fluxes are scratch of every evaluation, and so are the ghost cells behind the values.
     mutable exchange::Buffer<double> values_, records_, flux_, rate_;
     exchange::Buffer<double> force_, base_, sum_, local_dt_;
-    std::size_t evaluations_ = 0;
+    std::size_t evaluations_ = 0, rings_ = 0;
     double time_ = 0, stage_time_ = 0;
 };
 
