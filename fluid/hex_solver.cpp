@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 #include "fluid/hex_time_step.hpp"
 #include "fluid/hex_update.hpp"
@@ -38,14 +39,12 @@ HexSolver::HexSolver(meshing::HexGrid grid, const HexPatches& patches, const Sol
       grid_(std::move(grid)),
       geometry_(grid_, options.gradient, largest_delta(options), idle_faces(grid_, patches)),
       boundary_(grid_, patches),
-      flux_(4 * geometry_.padded_faces()),
       rate_(4 * grid_.cells()) {
     boundary_.check_mass_balance();
     const std::size_t all = grid_.cells() + grid_.border_faces();
     std::vector<double> rest(4 * all, 0.0);
     for (std::size_t i = 0; i < all; ++i) rest[4 * i] = 1;
     values_ = exchange::Buffer<double>(rest);
-    records_ = exchange::Buffer<double>(16 * all);
     if (!options_.with_force) return;
     std::vector<double> coefficients(4 * all, 0.0);
     for (std::size_t i = 0; i < all; ++i) coefficients[4 * i + 3] = options_.nu;
@@ -116,11 +115,17 @@ FlowParameters HexSolver::flow_parameters() const {
 }
 
 HexFields HexSolver::fields() const {
-    return {values_.data(), force_.data(), records_.data(), flux_.data(), rate_.data()};
+    return {values_.data(), force_.data(), records_.data(), flux_.data(), rate_.data(), rings_};
 }
 
 void HexSolver::evaluate() {
-    evaluate_hex_residual(geometry_.view(), boundary_.view(), flow_parameters(), fields());
+    const auto rings = exchange::on_gpu ? std::size_t{1} : static_cast<std::size_t>(exchange::threads());
+    if (rings != rings_) {
+        records_ = exchange::Buffer<double>(16 * geometry_.records() * rings);
+        flux_ = exchange::Buffer<double>(4 * geometry_.fluxes() * rings);
+        rings_ = rings;
+    }
+    evaluate_hex_residual(geometry_, boundary_.view(), flow_parameters(), fields());
     ++evaluations_;
 }
 
@@ -201,8 +206,11 @@ std::size_t HexSolver::first_bad_cell() { return hex_first_bad(cells(), values_.
 
 std::vector<std::array<Vec3d, 4>> HexSolver::gradients() const {
     fill_ghost_values(geometry_.view(), boundary_.view(), values_.data());
-    evaluate_gradients(geometry_.view(), fields());
-    const std::vector<double> records = records_.to_host();
+    exchange::Buffer<double> all_records(16 * cells());
+    HexFields whole = fields();
+    whole.records = all_records.data();
+    evaluate_gradients(geometry_.whole_view(), whole);
+    const std::vector<double> records = all_records.to_host();
     std::vector<std::array<Vec3d, 4>> all(cells());
     for (std::size_t i = 0; i < cells(); ++i)
         for (std::size_t c = 0; c < 4; ++c)

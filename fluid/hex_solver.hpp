@@ -85,10 +85,10 @@ class HexSolver final : public Flow {
     meshing::HexGrid grid_;
     HexGeometry geometry_;
     HexBoundary boundary_;
-    /// Records and fluxes are scratch that every evaluation fills, and so are the ghost cells behind values and force.
+    /// Records and fluxes are scratch of every evaluation, and so are the ghost cells behind values and force.
     mutable exchange::Buffer<double> values_, force_, records_, flux_, rate_;
     exchange::Buffer<double> base_, sum_, local_dt_;
-    std::size_t evaluations_ = 0;
+    std::size_t evaluations_ = 0, rings_ = 0;
     double time_ = 0, stage_time_ = 0;
 };
 
