@@ -191,7 +191,8 @@ TEST_F(Report, SeveralRunsStandSideBySide) {
     EXPECT_EQ(count(page, "data-chart=\"inclination\""), 1U);
     const auto chart = page.substr(page.find("data-chart=\"inclination\""), 20000);
     EXPECT_TRUE(has(chart.substr(0, chart.find("</figure>")), runs[1].name));
-    EXPECT_EQ(count(chart.substr(0, chart.find("</figure>")), "class=\"line c1\""), 2U);  // curve and legend
+    EXPECT_EQ(count(chart.substr(0, chart.find("</figure>")), "class=\"line c1 d1\""),
+              2U);  // curve and legend
 }
 
 TEST_F(Report, FramesArePackedWithoutLoss) {
