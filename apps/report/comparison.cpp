@@ -26,7 +26,9 @@ std::string row(const std::string& heading, const std::string& key, const std::v
 
 std::string observed(const output::Summary& summary, const std::string& name) {
     const auto found = summary.observables.find(name);
-    std::string text = number(found == summary.observables.end() ? NAN : found->second);
+    const double value = found == summary.observables.end() ? NAN : found->second;
+    if (name == "converged" && std::isfinite(value)) return value == 1 ? "yes" : "no";
+    std::string text = number(value);
     for (const auto& c : output::compare(summary))
         if (c.name == name && c.verdict != output::Comparison::Verdict::reported)
             text += "<br>" + verdict(c.verdict);
@@ -111,13 +113,13 @@ std::string comparison_table(const std::vector<RunRecord>& runs) {
         if (std::any_of(runs.begin(), runs.end(), [get = get](const RunRecord& run) {
                 return run.summary && std::isfinite(get(*run.summary));
             }))
-            text +=
-                row(heading, heading, runs, [get = get](const output::Summary& s) { return number(get(s)); });
+            text += row(heading, heading, runs,
+                        [get = get](const output::Summary& s) { return number(get(s), 3); });
     for (const std::string& name : errors)
         text += row("Estimated error: " + quantity_name(name).text + ", %", name, runs,
                     [&](const output::Summary& s) {
                         const auto found = s.errors_estimated.find(name);
-                        return number(found == s.errors_estimated.end() ? NAN : 100 * found->second);
+                        return number(found == s.errors_estimated.end() ? NAN : 100 * found->second, 3);
                     });
     return text + "</tbody></table></div>\n";
 }

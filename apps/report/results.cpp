@@ -16,17 +16,17 @@ std::string optional_number(const std::optional<double>& value) {
     return value ? number(*value) : number(NAN);
 }
 
-/// A value with its unit, which stay together.
+/// A value with its unit.
 std::string with_unit(const std::string& key, double value) {
     if (key == "converged") return value == 1 ? "yes" : "no";
     const std::string unit = quantity_name(key).unit;
     if (unit.empty() || !std::isfinite(value)) return number(value);
-    return "<span>" + number(value) + " <span class=\"unit\">" + escape(unit) + "</span></span>";
+    return number(value) + " <span class=\"unit\">" + escape(unit) + "</span>";
 }
 
 /// A cell whose heading is repeated on narrow screens.
 std::string cell(const char* heading, const std::string& html, const char* kind = "num") {
-    return fmt::format("<td class=\"{}\" data-label=\"{}\">{}</td>", kind, heading, html);
+    return fmt::format("<td class=\"{}\" data-label=\"{}\"><span>{}</span></td>", kind, heading, html);
 }
 
 std::string name_cell(const std::string& key) {
@@ -143,7 +143,8 @@ std::string sweep_runs_table(const RunRecord& run) {
 }
 
 std::string scales_table(const RunRecord& run) {
-    const NamedTexts summary = start_summary(run.log);
+    // the runs of a sweep choose their own
+    const NamedTexts summary = run.is_sweep() ? NamedTexts{} : start_summary(run.log);
     std::vector<Row> chosen, converted;
     for (const auto& [name, value] : summary)
         if (name != "conversion") chosen.push_back({name, escape(value)});

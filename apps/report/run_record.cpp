@@ -7,7 +7,6 @@
 
 #include "apps/output/atomic_file.hpp"
 #include "apps/output/folder.hpp"
-#include "apps/run_files.hpp"
 #include "apps/toml_input.hpp"
 #include "exchange/error.hpp"
 
@@ -134,8 +133,9 @@ Status status_of(const RunRecord& run) {
     for (auto entry = run.log.rbegin(); entry != run.log.rend() && entry->level != "info"; ++entry) {
         if (entry->level == "warning" && entry->text.starts_with("interrupted"))
             return {Ending::interrupted, "interrupted", "The run was " + entry->text + ". " + progress(run)};
-        if (entry->level == "debug" && !entry->text.starts_with(apps::environment_word))
-            return {Ending::failed, "failed", "The run stopped: " + entry->text + " " + progress(run)};
+        // errors are sentences, what else is noted in the file alone is none
+        if (entry->level == "debug" && entry->text.ends_with('.'))
+            return {Ending::failed, "failed", "It stopped with: " + entry->text + " " + progress(run)};
     }
     const bool restartable = run.kind != "membrane" && run.kind != "steady" && has_checkpoint(run.folder);
     return {Ending::open, "unfinished",

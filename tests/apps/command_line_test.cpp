@@ -27,7 +27,7 @@ TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
     for (const char* level :
          {"", "run", "mesh", "mesh grid", "mesh rbc", "mesh hex", "mesh hex cube", "mesh hex cylinder",
           "mesh hex pipe", "mesh hex constriction", "mesh hex box", "mesh hex check", "membrane",
-          "membrane relax", "membrane stretch", "bench", "bench thesis", "schema"}) {
+          "membrane relax", "membrane stretch", "bench", "bench thesis", "schema", "report"}) {
         const Outcome outcome = run(std::string(level) + " --help");
         EXPECT_EQ(outcome.code, 0) << level;
         EXPECT_NE(outcome.text.find("Example"), std::string::npos) << level << "\n" << outcome.text;
@@ -37,7 +37,7 @@ TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
 }
 
 TEST_F(CommandLine, WrongCommandsAreBadInput) {
-    expect_error("", 2, "hemoflux needs one of run, sweep, mesh, membrane, bench, schema");
+    expect_error("", 2, "hemoflux needs one of run, sweep, mesh, membrane, bench, schema, report");
     expect_error("rnu case.toml", 2, "\"rnu\" is not a command");
     expect_error("mesh rcb", 2, "hemoflux mesh has grid, rbc, hex");
     expect_error("membrane", 2, "hemoflux membrane needs one of relax, stretch");

@@ -36,8 +36,12 @@ addEventListener("load", async () => {
     found.charts.push({ width: box.width, height: box.height, lines, texts: sizes.length, smallest: Math.min(...sizes) });
   });
   const canvas = document.querySelector("canvas"), slider = document.querySelector("input[type=range]");
+  const copy = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
   const look = () => {
-    const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+    copy.canvas.width = canvas.width;
+    copy.canvas.height = canvas.height;
+    copy.drawImage(canvas, 0, 0);
+    const data = copy.getImageData(0, 0, canvas.width, canvas.height).data;
     let sum = 0, drawn = 0;
     for (let i = 0; i < data.length; i += 4) {
       if (data[i + 3] > 0) drawn++;
@@ -64,6 +68,17 @@ addEventListener("load", async () => {
 });
 </script>)";
 
+/// The page in a frame, which hands the findings on; braces as fmt wants them.
+constexpr const char* frame_page = R"(<!DOCTYPE html><body style="margin:0">
+<iframe id="page" src="page.html" style="border:0;width:{}px;height:900px"></iframe><script>
+const wait = setInterval(() => {{
+  const found = document.getElementById("page").contentDocument?.documentElement?.getAttribute("data-found");
+  if (!found) return;
+  clearInterval(wait);
+  document.documentElement.setAttribute("data-found", btoa(found));
+}}, 50);
+</script></body>)";
+
 class ReportInBrowser : public ReportFolder {
   protected:
     void SetUp() override {
@@ -79,16 +94,7 @@ class ReportInBrowser : public ReportFolder {
         probed.insert(probed.find("<meta charset"), watcher);
         probed.insert(probed.rfind("</body>"), prober);
         put("page.html", probed);
-        put("frame.html",
-            fmt::format("<!DOCTYPE html><body style=\"margin:0\"><iframe id=\"f\" src=\"page.html\" "
-                        "style=\"border:0;width:{}px;height:900px\"></iframe><script>const f = "
-                        "document.getElementById('f');"
-                        "const wait = setInterval(() => {{ const found = f.contentDocument && "
-                        "f.contentDocument.documentElement.getAttribute('data-found'); if (found) {{ "
-                        "clearInterval(wait); "
-                        "document.documentElement.setAttribute('data-found', btoa(found)); }} }}, "
-                        "50);</script></body>",
-                        width));
+        put("frame.html", fmt::format(fmt::runtime(frame_page), width));
         const output::ChildResult result = output::run_child(
             {"chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
              "--no-first-run", "--allow-file-access-from-files", "--enable-logging=stderr",

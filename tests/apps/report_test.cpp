@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "apps/output/atomic_file.hpp"
@@ -143,7 +144,9 @@ TEST_F(Report, UnfinishedAndFailedRunsSaySo) {
             "2026-11-25 22:38:00.000 warning: the last good state (step 3) is kept\n");
     EXPECT_EQ(read_run(run).status.ending, Ending::failed);
     EXPECT_TRUE(has(build_page({read_run(run)}), "node 17 of cell 0 left the domain: it is &lt;lost&gt;."));
-    put("out/log.txt", "2026-11-25 22:34:53.567 debug: environment   version 0.1.0; backend OMP\n");
+    put("out/log.txt",
+        "2026-11-25 22:34:53.567 debug: environment   version 0.1.0; backend OMP\n2026-11-25 22:35:00.000 "
+        "debug: K_S 5.3 uN/m, c0 1: chi2 3.2\n");
     EXPECT_EQ(read_run(run).status.ending, Ending::open);
 }
 
@@ -191,7 +194,8 @@ TEST_F(Report, SeveralRunsStandSideBySide) {
     EXPECT_EQ(count(page, "data-chart=\"inclination\""), 1U);
     const auto chart = page.substr(page.find("data-chart=\"inclination\""), 20000);
     EXPECT_TRUE(has(chart.substr(0, chart.find("</figure>")), runs[1].name));
-    EXPECT_EQ(count(chart.substr(0, chart.find("</figure>")), "class=\"line c1\""), 2U);  // curve and legend
+    EXPECT_EQ(count(chart.substr(0, chart.find("</figure>")), "class=\"line c1 d1\""),
+              2U);  // curve and legend
 }
 
 TEST_F(Report, FramesArePackedWithoutLoss) {
