@@ -229,7 +229,7 @@ void choose(const FlowParameters& p, const Function& f) {
 }  // namespace
 
 void evaluate_gradients(const HexView& grid, const HexFields& fields) {
-    Parts<Everywhere, false, false>{grid, {}, {}, fields}.gradients({0, grid.cells});
+    Parts<Everywhere, false, false, false>{grid, {}, {}, fields}.gradients({0, grid.cells});
 }
 
 void evaluate_fluxes(const HexView& grid, const HexBorderView& border, const FlowParameters& p,
