@@ -105,6 +105,7 @@ HeldBodies::HeldBodies(fluid::Solver& fluid, Kernel kernel, const std::vector<Ri
     const std::vector<double> density_of_unit = node_density_[0].to_host();
     for (std::size_t j = 0; j < n; ++j) slip[j] *= areas[j] / std::fabs(density_of_unit[j]);
     slip_per_density_ = exchange::Buffer<double>(slip);
+    exert(exchange::Buffer<double>(size()).data());  // none yet
 }
 
 exchange::FieldView HeldBodies::velocities() {

@@ -49,7 +49,7 @@ NewtonKrylov::NewtonKrylov(Flow& flow, const NewtonOptions& options, Constraint*
     residual_at(q_.data(), r_.data());
     set_scales();
     first_norm_ = norm_ = norm(r_.data());
-    if (!constraint_) return;
+    if (!constraint_ || norm_ == 0) return;
     basis_.start(r_.data());
     constraint_->estimate(basis_.vector(0) + fluid_unknowns_, change_.data() + fluid_unknowns_);
     typical_force_ = norm_ * std::sqrt(sum_of_squares(change_.data() + fluid_unknowns_, forces_));

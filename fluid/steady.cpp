@@ -86,6 +86,10 @@ SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const S
     std::optional<NewtonKrylov> newton;
     SteadyResult result;
     std::size_t lowest_at = 0;
+    if (constraint && flow.largest_speed() == 0) {  // differences of residuals need a scale of velocity
+        flow.set_local_steps(options.sigma, options.c);
+        flow.local_step();
+    }
     for (std::size_t iteration = 1; iteration <= options.most_iterations; ++iteration) {
         SteadyRecord record;
         record.iteration = iteration;
