@@ -2,6 +2,7 @@
 // the end is all that joins them. Says how the cell stands after three strain units and returns 0 if that is as it should be.
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "coupling/interpolate.hpp"
 #include "coupling/motion.hpp"
