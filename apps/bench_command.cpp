@@ -5,6 +5,7 @@
 #include "apps/commands.hpp"
 #include "apps/output/atomic_file.hpp"
 #include "apps/speed.hpp"
+#include "apps/speed_cells.hpp"
 #include "exchange/backend.hpp"
 
 namespace hemoflux::apps {
@@ -38,6 +39,8 @@ void bench_thesis(const BenchArguments& in) {
     const int n = in.quick ? quick_edge : thesis_edge;
     fmt::print("{}\n{}\n", describe(machine),
                table_8_4(machine, structured_cavity(n, in.quick), unstructured_cavity(n, in.quick)));
+    const CellSpeed cells = time_cells(in.quick);
+    fmt::print("{}\n{}\n", table_8_5_and_8_6(machine, cells), table_7_1(machine, cells));
     fmt::print("{}", table_3_18(machine, steady_cavities(in.quick)));
 }
 

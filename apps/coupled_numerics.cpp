@@ -82,7 +82,7 @@ std::string describe(const Case& c, const CoupledSystem& s) {
         "  cells         {} of {} nodes, viscosity ratio {:.3g}\n"
         "  physical      {} = {:.4g} 1/s, Ca = G mu R0/K_S = {:.4g}, Re_G = {:.3g}\n"
         "  chosen        nu/h = {:.3g}, Re_G = {:.3g}, Ma = {:.3g}, kernel as in the case, scheme {}\n"
-        "  step          G dt = {:.4g} ({} steps of {:.4g} s; limit: {})\n"
+        "  step          G dt = {:.4g} ({} steps of {:.4g} s; limit: {}{})\n"
         "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; stress = {:.4g} "
         "Pa;\n"
         "                membrane force 1e-11 N = {:.4g} lattice units\n"
@@ -91,8 +91,8 @@ std::string describe(const Case& c, const CoupledSystem& s) {
         c.cells.front().cytosol_viscosity / c.fluid.viscosity,
         c.shear_rate ? "G" : "no shear, clock G = K_S/(mu R0)", s.clock, n.capillary, n.physical_reynolds,
         n.lattice_viscosity, n.reynolds, n.mach, name_of(coupled_scheme(c)), n.step_strain, s.plan.steps,
-        n.step_seconds, n.step_limit, n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa,
-        n.force_factor);
+        n.step_seconds, n.step_limit, n.constraint_damping > 0 ? ", penalties damped" : "",
+        n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa, n.force_factor);
     for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
     text += "(estimated)";
     if (s.bodies) text += s.bodies->describe();

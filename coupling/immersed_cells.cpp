@@ -71,6 +71,9 @@ ImmersedCells::ImmersedCells(const FluidGrid& grid, membrane::Batch& cells, cons
     if (options_.contact || cells_.cells() > 1)
         overlap_ = std::make_unique<OverlapCheck>(box, overlap_reach * longest_edge(cells_), triangles,
                                                   cells_.cells(), cells_.vertices(), cells_.stride());
+    if (options_.constraint_damping > 0)
+        damping_ = std::make_unique<ConstraintDamping>(triangles, cells_.stride(), cells_.cells(),
+                                                       options_.constraint_damping);
     const Vec3d centroid = common_centroid(cells_);
     target_ = {centroid.x, centroid.y, centroid.z};
     if (options_.recentre)
@@ -106,6 +109,8 @@ void ImmersedCells::compute_forces(double /*dt*/) {
 
 void ImmersedCells::advance(double dt, const exchange::FieldView& velocity) {
     double *x = cells_.x().data(), *y = cells_.y().data(), *z = cells_.z().data();
+    if (damping_)
+        damping_->apply(x, y, z, {velocity.component[0], velocity.component[1], velocity.component[2]});
     move(nodes_, dt, velocity.component[0], velocity.component[1], velocity.component[2], x, y, z);
     if (recentring_) shift_ += recentring_->apply(x, y, z);
     if (elements_) elements_->advance(cells_, dt * options_.membrane_time);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "coupling/constraint_damping.hpp"
 #include "coupling/contact.hpp"
 #include "coupling/fluid_grid.hpp"
 #include "coupling/immersed.hpp"
@@ -35,6 +36,8 @@ struct CellOptions {
     /// 1e-5 s; 0: none.
     double membrane_time = 0;
     double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
+    /// Strength of ConstraintDamping, which steps beyond the explicit limit of the membrane need; 0: none.
+    double constraint_damping = 0;
 };
 
 /// What the cells' future depends on besides fluid and nodes.
@@ -66,6 +69,7 @@ class ImmersedCells final : public Immersed {
 
     /// Throws NumericalError when a spring is overstretched.
     void compute_forces(double dt) override;
+    /// Changes the velocity where constraint_damping asks for it.
     void advance(double dt, const exchange::FieldView& velocity) override;
     /// Throws NumericalError when a node is inside another cell.
     void check() override;
@@ -102,6 +106,7 @@ class ImmersedCells final : public Immersed {
     std::unique_ptr<OverlapCheck> overlap_;
     std::array<double, 3> target_{};
     Vec3d shift_{0, 0, 0};
+    std::unique_ptr<ConstraintDamping> damping_;
 };
 
 }  // namespace hemoflux::coupling

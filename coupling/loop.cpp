@@ -62,7 +62,7 @@ void Loop::add_cells(membrane::Batch& cells, const LoopOptions& o, double nu) {
     cells_ = std::make_unique<ImmersedCells>(
         *grid_, cells,
         CellOptions{o.force_factor, o.nu_inside, nu, o.smoothing, o.recentre, o.contact, o.pull, o.surface_nu,
-                    o.membrane_time, o.maxwell_stiffness},
+                    o.membrane_time, o.maxwell_stiffness, o.constraint_damping},
         viscosity);
     add(*cells_);
 }

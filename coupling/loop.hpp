@@ -38,6 +38,8 @@ struct LoopOptions {
     /// 1e-5 s; 0: none.
     double membrane_time = 0;
     double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
+    double constraint_damping =
+        0;  ///< strength, for steps beyond the explicit limit of the membrane; 0: none
 };
 
 /// Forces of all nodes on the fluid in lattice units: their sum and the sum of their magnitudes.

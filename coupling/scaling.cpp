@@ -62,16 +62,20 @@ Numerics choose_numerics(const PhysicalCase& p, const NumericsChoice& choice) {
     n.capillary = p.shear_rate * p.viscosity * p.radius * 1e-6 / p.shear_modulus;
     n.physical_reynolds = p.shear_rate * diameter * diameter * 1e-12 * p.density / p.viscosity;
 
+    const bool factored = choice.scheme == fluid::Scheme::factored,
+               damped = factored && choice.kernel == Kernel::lagrange;
+    const double gain =
+        choice.kernel == Kernel::phi3 || choice.kernel == Kernel::phi4 ? smooth_kernel_gain : 1;
+    const double undamped = membrane_fraction * gain * n.capillary;  // G dt for dt = fraction mu R0/K_S
     if (choice.step_strain > 0) {
         n.step_limit = "given";
         n.step_strain = choice.step_strain;
     } else {
-        const double gain =
-            choice.kernel == Kernel::phi3 || choice.kernel == Kernel::phi4 ? smooth_kernel_gain : 1;
-        const double membrane = membrane_fraction * gain * n.capillary;  // G dt for dt = fraction mu R0/K_S
-        double fluid = fluid::factored_limit * p.smallest_cell / (1 + n.mach / std::sqrt(3.0)) * n.rate;
+        const double membrane = undamped * (damped ? damped_gain : 1);
+        const double share = factored ? fluid::implicit_density_limit : fluid::factored_limit;
+        double fluid = share * p.smallest_cell / (1 + n.mach / std::sqrt(3.0)) * n.rate;
         n.step_limit = "acoustic";
-        if (choice.scheme != fluid::Scheme::factored) {
+        if (!factored) {
             const double limit =
                 choice.scheme == fluid::Scheme::rk4 ? fluid::real_limit_rk4 : fluid::real_limit_euler;
             const double viscous = 0.9 * limit * p.smallest_cell * p.smallest_cell / (16 * n.largest_nu);
@@ -83,6 +87,7 @@ Numerics choose_numerics(const PhysicalCase& p, const NumericsChoice& choice) {
         n.step_strain = std::min(fluid, membrane);
         if (membrane < fluid) n.step_limit = "membrane";
     }
+    if (damped) n.constraint_damping = std::max(0.0, n.step_strain / undamped - 1);
     n.step = n.step_strain / n.rate;
     n.step_seconds = n.step_strain / p.shear_rate;
     n.errors = estimate(n, p, choice.kernel);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "coupling/band_triangle.hpp"
+#include "coupling/triangle_rings.hpp"
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
 #include "exchange/parallel.hpp"
@@ -25,7 +26,7 @@ struct VertexNormal {
             return;
         }
         for (int i = ring_begin[v % vertices]; i < ring_begin[v % vertices + 1]; ++i) {
-            const BandTriangle& t = triangle[c * triangles + static_cast<std::size_t>(ring[i])];
+            const BandTriangle& t = triangle[c * triangles + static_cast<std::size_t>(ring[i] / 3)];
             sum += cross(t.ab, t.ac);
         }
         const Vec3d n = (1 / norm(sum)) * sum;
@@ -45,20 +46,6 @@ struct MotionOverLimit {
         const double h = half_width[v];
         const double a = along / (limits.normal * h), b = norm(d) / (limits.total * h);
         return {a > b ? a : b};
-    }
-};
-
-struct Rings {
-    std::vector<int> begin, triangle;
-    Rings(const std::vector<std::array<int, 3>>& triangles, std::size_t vertices) : begin(vertices + 1, 0) {
-        for (const auto& t : triangles)
-            for (const int v : t) ++begin[static_cast<std::size_t>(v) + 1];
-        for (std::size_t v = 0; v < vertices; ++v) begin[v + 1] += begin[v];
-        triangle.resize(3 * triangles.size());
-        std::vector<int> next(begin.begin(), begin.end() - 1);
-        for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (const int v : triangles[t])
-                triangle[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = static_cast<int>(t);
     }
 };
 
@@ -97,9 +84,9 @@ InteriorViscosity::InteriorViscosity(const FluidGrid& grid, const std::vector<st
         low_ = std::min(low_, nu);
         high_ = std::max(high_, nu);
     }
-    const Rings rings(triangles, vertices);
+    const TriangleRings rings(triangles, vertices);
     ring_begin_ = exchange::Buffer<int>(rings.begin);
-    ring_ = exchange::Buffer<int>(rings.triangle);
+    ring_ = exchange::Buffer<int>(rings.corner);
     for (int q = 0; q < 3; ++q) {
         position_[q] = exchange::Buffer<double>(vertices * nu_inside.size());
         normal_[q] = exchange::Buffer<double>(vertices * nu_inside.size());

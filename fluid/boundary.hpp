@@ -106,6 +106,8 @@ class Boundary {
 
     /// Fills the ghost cells of density and velocity.
     void fill(const GridView& grid, const StateView& state) const;
+    /// Fills the ghost cells of increments of the three momenta, by the rules of the velocity without their given values.
+    void fill_increments(const GridView& grid, const std::array<double*, 3>& increments) const;
     /// Fills the ghost cells of the body force and the viscosity with the border cell's value (periodic: the
     /// other end's).
     void fill_force(const GridView& grid, const StateView& state) const;

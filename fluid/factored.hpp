@@ -9,6 +9,16 @@
 /// zero-gradient one copies it, periodic lines are cyclic (Sherman-Morrison). nu is constant and must be at
 /// least half the local viscosity everywhere; the steady state does not depend on it. The factors depend on
 /// dt and the grid only and are computed once.
+///
+/// Density is advanced explicitly up to dt c = factored_limit h. Streaming from both sides of a face diffuses it by delta/3,
+/// 2/(3 dx) along every axis for the shortest waves, which an explicit step bears up to dt c = h only. In longer steps it is
+/// implicit too, with the mass that the new momentum carries (sound then passes from momentum to density and back within
+/// a step):
+///
+///   (I - dt Mx)(I - dt My)(I - dt Mz) drho = dt (R_rho - div dq),   M_x = the operator L_x with delta/3 in place of nu
+///
+/// dq the increments of momentum found first. Again the steady state is that of the residual, and the mass of a closed
+/// box is kept to rounding.
 #pragma once
 
 #include <array>
@@ -41,6 +51,11 @@ class Factored {
     /// r[1..3] <- dQ from r[1..3] = R.
     void solve(const ResidualView& r) const;
 
+    /// Whether the step is so long that the density must be implicit.
+    [[nodiscard]] bool implicit_density() const { return implicit_density_; }
+    /// r[0] <- drho / dt from r[0] = R and the increments r[1..3] that solve() has left; fills their ghost cells.
+    void solve_density(const GridView& grid, const Boundary& boundary, const ResidualView& r) const;
+
     /// What the implicit operator, beyond dt R, lets through the sides that are not periodic: the momentum that the fluid
     /// gains by it in a step whose increments of momentum (per volume; three components of all cells, x fastest) these
     /// are. On the host, for the balance of momentum.
@@ -56,6 +71,8 @@ class Factored {
     std::array<std::array<LineFactors, 3>, 3> factors_;     // [axis][component]
     std::array<std::array<LineOperator, 3>, 3> operators_;  // the same, not factored
     std::array<std::vector<double>, 3> widths_;
+    std::array<LineFactors, 3> density_factors_;
+    bool implicit_density_;
 };
 
 }  // namespace hemoflux::fluid

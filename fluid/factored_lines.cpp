@@ -28,9 +28,30 @@ LineOperator line_operator(const std::vector<double>& widths, std::size_t ghosts
     return line;
 }
 
+LineOperator density_operator(const std::vector<double>& widths, std::size_t ghosts, double dt,
+                              double lateral, bool periodic, double low, double high) {
+    const std::size_t n = widths.size() - 2 * ghosts;
+    LineOperator line{{}, {}, periodic, low, high};
+    for (std::size_t i = 0; i < n; ++i) {
+        const double dx = widths[i + ghosts];
+        const auto across = [&](double next) {
+            const double streaming = std::min({lateral, dx, next});
+            return n == 1 && periodic ? 0.0 : dt * streaming / 3 / ((dx + next) / 2) / dx;
+        };
+        line.down.push_back(across(widths[i + ghosts - 1]));
+        line.up.push_back(across(widths[i + ghosts + 1]));
+    }
+    return line;
+}
+
 HostLine factor_line(const std::vector<double>& widths, std::size_t ghosts, double strength, double delta,
                      bool periodic, double low, double high) {
-    const LineOperator op = line_operator(widths, ghosts, strength, delta, periodic, low, high);
+    return factor_line(line_operator(widths, ghosts, strength, delta, periodic, low, high));
+}
+
+HostLine factor_line(const LineOperator& op) {
+    const bool periodic = op.periodic;
+    const double low = op.low, high = op.high;
     const std::size_t n = op.down.size();
     HostLine line;
     line.lower.assign(n, 0.0);

@@ -24,6 +24,15 @@ struct LineOperator {
 LineOperator line_operator(const std::vector<double>& widths, std::size_t ghosts, double strength,
                            double delta, bool periodic, double low, double high);
 
+/// The same of the density, I - dt M: what streaming exchanges across a face is delta_f/3 times the gradient, delta_f at
+/// most the smaller width of the two cells and `lateral`, half the greatest width of cells along the face. Like nu it may be
+/// larger than what acts.
+LineOperator density_operator(const std::vector<double>& widths, std::size_t ghosts, double dt,
+                              double lateral, bool periodic, double low, double high);
+
+/// Factors of an operator on its line.
+HostLine factor_line(const LineOperator& op);
+
 /// Factors of I - strength L on one axis. delta: smallest streaming distance of the faces across this axis;
 /// where it is less than half the distance s of two centres, the explicit viscous flux is stiffer by s/(2
 /// delta), and so is L made. widths: cell widths with `ghosts` ghost cells at either end; periodic: cyclic

@@ -105,6 +105,15 @@ void Boundary::fill(const GridView& grid, const StateView& state) const {
     fill_all(Ghosts<4>{grid.layout, {state.q[0], state.q[1], state.q[2], state.q[3]}, view_});
 }
 
+void Boundary::fill_increments(const GridView& grid, const std::array<double*, 3>& increments) const {
+    auto g = copies<3>(grid.layout, view_);
+    for (int c = 0; c < 3; ++c) {
+        g.field[c] = increments[static_cast<std::size_t>(c)];
+        for (int p = 0; p < 6; ++p) g.boundary.rule[p][c].sign = view_.rule[p][1 + c].sign;
+    }
+    fill_all(g);
+}
+
 void Boundary::fill_force(const GridView& grid, const StateView& state) const {
     auto g = copies<3>(grid.layout, view_);
     for (int c = 0; c < 3; ++c) g.field[c] = state.force[c];

@@ -150,6 +150,7 @@ void Solver::step(double dt) {
                 std::make_unique<Factored>(grid_, boundary_, options_.largest_nu / options_.gamma, dt);
         evaluate_at(start + dt);
         factored_->solve(r);
+        if (factored_->implicit_density()) factored_->solve_density(grid_.view(), boundary_, r);
         update_factored(layout, r, dt, state_.view());
     } else {
         step_rk4(start, dt, dt, nullptr);

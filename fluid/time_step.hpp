@@ -38,6 +38,8 @@ inline constexpr double imaginary_limit_rk4 = 2.828;
 /// Share of dt c = h that is used with the factored scheme, whose density part is explicit: noise in uniform and stretched
 /// cubes and in columns of flat cells stays bounded exactly up to 1.
 inline constexpr double factored_limit = 0.9;
+/// The same of longer steps, in which the density is implicit too (factored.hpp).
+inline constexpr double implicit_density_limit = 2.5;
 
 /// Largest viscous eigenvalue of the scheme on this grid, 1/time. nu: largest kinematic viscosity.
 double viscous_eigenvalue(const Grid& grid, double nu);

@@ -55,6 +55,8 @@ TEST_F(CommandLine, Benchmarks) {
     EXPECT_EQ(thesis.code, 0) << thesis.text;
     EXPECT_NE(thesis.text.find("15550"), std::string::npos) << thesis.text;
     EXPECT_NE(thesis.text.find("1177.27"), std::string::npos) << thesis.text;
+    for (const char* column : {"483", "126", "25897", "11531", "15709"})
+        EXPECT_NE(thesis.text.find(column), std::string::npos) << column << thesis.text;
     EXPECT_EQ(thesis.text.find("nan"), std::string::npos) << thesis.text;
     expect_error("bench --cells 4", 2, "--cells");
 }

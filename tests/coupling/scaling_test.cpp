@@ -38,7 +38,7 @@ TEST(Scaling, KeepsTheCapillaryNumber) {
                 1e-14);
     EXPECT_NEAR(n.step_seconds * p.shear_rate, n.step_strain, 1e-15);
     EXPECT_NEAR(n.step * n.rate, n.step_strain, 1e-15);
-    EXPECT_LE(n.step, 0.9 * p.smallest_cell);
+    EXPECT_LE(n.step, fluid::implicit_density_limit * p.smallest_cell);
 }
 
 TEST(Scaling, TheMoreViscousFluidKeepsTheLatticeViscosity) {
@@ -51,13 +51,15 @@ TEST(Scaling, TheMoreViscousFluidKeepsTheLatticeViscosity) {
 
 TEST(Scaling, StepIsBoundByTheMembraneInSlowFlowAndBySoundInFastFlow) {
     PhysicalCase p = tank_treading();
+    p.shear_rate = 10;
     EXPECT_EQ(choose_numerics(p, {}).step_limit, "acoustic");
     p.shear_rate = 0.5;
     const Numerics slow = choose_numerics(p, {});
     EXPECT_EQ(slow.step_limit, "membrane");
     NumericsChoice smooth;
     smooth.kernel = Kernel::phi4;
-    EXPECT_NEAR(choose_numerics(p, smooth).step_strain, 2 * slow.step_strain, 1e-15);
+    EXPECT_NEAR(choose_numerics(p, smooth).step_strain,
+                smooth_kernel_gain * membrane_fraction * slow.capillary, 1e-15);
     p.shear_rate = 3;
     NumericsChoice euler;
     euler.scheme = fluid::Scheme::euler;
@@ -67,6 +69,27 @@ TEST(Scaling, StepIsBoundByTheMembraneInSlowFlowAndBySoundInFastFlow) {
     EXPECT_EQ(choose_numerics(p, given).step_strain, 1e-4);
     given.mach = 0.1;
     EXPECT_NEAR(choose_numerics(p, given).mach, 0.1, 1e-15);
+}
+
+// Constraints are damped where the step needs it, and not at all up to the explicit limit.
+TEST(Scaling, DampsTheConstraintsBeyondTheExplicitLimit) {
+    PhysicalCase p = tank_treading();
+    p.shear_rate = 0.5;
+    const Numerics slow = choose_numerics(p, {});
+    EXPECT_NEAR(slow.step_strain, damped_gain * membrane_fraction * slow.capillary, 1e-15);
+    EXPECT_NEAR(slow.constraint_damping, damped_gain - 1, 1e-12);
+    NumericsChoice choice;
+    choice.step_strain = membrane_fraction * slow.capillary;
+    EXPECT_EQ(choose_numerics(p, choice).constraint_damping, 0);
+    choice.step_strain *= 1.5;
+    EXPECT_NEAR(choose_numerics(p, choice).constraint_damping, 0.5, 1e-12);
+    choice.step_strain = 0;
+    choice.kernel = Kernel::phi4;
+    EXPECT_EQ(choose_numerics(p, choice).constraint_damping, 0);
+    choice = {};
+    choice.scheme = fluid::Scheme::euler;
+    EXPECT_EQ(choose_numerics(p, choice).constraint_damping, 0);
+    EXPECT_LE(choose_numerics(p, choice).step_strain, membrane_fraction * slow.capillary);
 }
 
 TEST(Scaling, RefusesImpossibleCases) {

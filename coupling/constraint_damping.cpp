@@ -1,0 +1,180 @@
+#include "coupling/constraint_damping.hpp"
+
+#include <algorithm>
+
+#include "coupling/triangle_rings.hpp"
+#include "exchange/parallel.hpp"
+
+namespace hemoflux::coupling {
+namespace {
+
+constexpr int passes = 4;
+constexpr double weight_at_most = 0.3, share_per_strength = 9;
+/// Squared sine of the angle between grad V and grad A, below which (on a sphere) one follows from the other.
+constexpr double parallel = 1e-6;
+
+struct Surface {
+    std::size_t triangles, stride;
+    const int *corners, *ring_begin, *ring;
+    HEMOFLUX_INLINE std::size_t node(std::size_t triangle, int corner) const {
+        const std::size_t cell = triangle / triangles, t = triangle % triangles;
+        return cell * stride + static_cast<std::size_t>(corners[3 * t + static_cast<std::size_t>(corner)]);
+    }
+};
+
+HEMOFLUX_INLINE Vec3d at(const double* const (&p)[3], std::size_t i) { return {p[0][i], p[1][i], p[2][i]}; }
+
+struct TriangleTask {
+    Surface surface;
+    const double* x[3];
+    TriangleGradient* out;
+    HEMOFLUX_FN void operator()(std::size_t t) const {
+        const Vec3d a = at(x, surface.node(t, 0)), b = at(x, surface.node(t, 1)),
+                    c = at(x, surface.node(t, 2));
+        const Vec3d normal2 = cross(b - a, c - a);
+        const double size = norm(normal2), half = 0.5 / size;
+        out[t] = {{half * cross(normal2, c - b), half * cross(normal2, a - c), half * cross(normal2, b - a)},
+                  normal2,
+                  2 / size};
+    }
+};
+
+struct NodeTask {
+    Surface surface;
+    const TriangleGradient* triangle;
+    NodeGradient* out;
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        const std::size_t cell = i / surface.stride, v = i % surface.stride;
+        Vec3d volume{0, 0, 0}, area{0, 0, 0};
+        double scale = 0;
+        for (int r = surface.ring_begin[v]; r < surface.ring_begin[v + 1]; ++r) {
+            const int corner = surface.ring[r];
+            const TriangleGradient& t =
+                triangle[cell * surface.triangles + static_cast<std::size_t>(corner / 3)];
+            const Vec3d& g = t.area[corner % 3];
+            volume += t.normal2;
+            area += g;
+            scale += dot(g, g) * t.inverse_area;
+        }
+        out[i] = {(1.0 / 6) * volume, area, scale > 0 ? 1 / scale : 0.0};
+    }
+};
+
+struct Products {
+    std::size_t stride;
+    const NodeGradient* node;
+    const double* u[3];
+    HEMOFLUX_FN GradientSums operator()(std::size_t cell, std::size_t v) const {
+        const std::size_t i = cell * stride + v;
+        const NodeGradient& g = node[i];
+        const Vec3d velocity = at(u, i);
+        return {dot(g.volume, g.volume), dot(g.volume, g.area), dot(g.area, g.area), dot(g.volume, velocity),
+                dot(g.area, velocity)};
+    }
+};
+
+/// u <- u - share P u.
+struct Project {
+    std::size_t stride;
+    const NodeGradient* node;
+    const GradientSums* sums;
+    double share;
+    double* u[3];
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        const GradientSums& s = sums[i / stride];
+        const double det = s.volume2 * s.area2 - s.mixed * s.mixed;
+        double along_volume = s.volume_rate / s.volume2, along_area = 0;
+        if (det > parallel * s.volume2 * s.area2) {
+            along_volume = (s.volume_rate * s.area2 - s.area_rate * s.mixed) / det;
+            along_area = (s.area_rate * s.volume2 - s.volume_rate * s.mixed) / det;
+        }
+        const Vec3d change = share * (along_volume * node[i].volume + along_area * node[i].area);
+        u[0][i] -= change.x;
+        u[1][i] -= change.y;
+        u[2][i] -= change.z;
+    }
+};
+
+/// Rate of change of a triangle's area over its area.
+struct RateTask {
+    Surface surface;
+    const TriangleGradient* triangle;
+    const double* u[3];
+    double* rate;
+    HEMOFLUX_FN void operator()(std::size_t t) const {
+        const TriangleGradient& g = triangle[t];
+        double sum = 0;
+        for (int c = 0; c < 3; ++c) sum += dot(g.area[c], at(u, surface.node(t, c)));
+        rate[t] = sum * g.inverse_area;
+    }
+};
+
+struct Relieve {
+    Surface surface;
+    const TriangleGradient* triangle;
+    const NodeGradient* node;
+    const double* rate;
+    double weight;
+    double* u[3];
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        const std::size_t cell = i / surface.stride, v = i % surface.stride;
+        Vec3d sum{0, 0, 0};
+        for (int r = surface.ring_begin[v]; r < surface.ring_begin[v + 1]; ++r) {
+            const int corner = surface.ring[r];
+            const std::size_t t = cell * surface.triangles + static_cast<std::size_t>(corner / 3);
+            sum += rate[t] * triangle[t].area[corner % 3];
+        }
+        const Vec3d change = weight * node[i].inverse_scale * sum;
+        u[0][i] -= change.x;
+        u[1][i] -= change.y;
+        u[2][i] -= change.z;
+    }
+};
+
+}  // namespace
+
+struct ConstraintDamping::Scratch {
+    exchange::Reduction<GradientSums> products;
+};
+
+ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& triangles, std::size_t stride,
+                                     std::size_t cells, double strength)
+    : triangles_(triangles.size()),
+      stride_(stride),
+      cells_(cells),
+      share_(share_per_strength * strength / (1 + share_per_strength * strength)),
+      weight_(weight_at_most * std::min(1.0, strength)),
+      triangle_(triangles.size() * cells),
+      node_(stride * cells),
+      rate_(triangles.size() * cells),
+      sums_(cells),
+      scratch_(std::make_unique<Scratch>()) {
+    std::vector<int> corners;
+    for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    corners_ = exchange::Buffer<int>(corners);
+    const TriangleRings rings(triangles, stride);
+    ring_begin_ = exchange::Buffer<int>(rings.begin);
+    ring_ = exchange::Buffer<int>(rings.corner);
+}
+
+ConstraintDamping::~ConstraintDamping() = default;
+
+void ConstraintDamping::apply(const double* x, const double* y, const double* z,
+                              const std::array<double*, 3>& u) {
+    const Surface surface{triangles_, stride_, corners_.data(), ring_begin_.data(), ring_.data()};
+    const std::size_t triangles = triangles_ * cells_, nodes = stride_ * cells_;
+    exchange::for_each_index(triangles, TriangleTask{surface, {x, y, z}, triangle_.data()});
+    exchange::for_each_index(nodes, NodeTask{surface, triangle_.data(), node_.data()});
+    for (int pass = 0; pass < passes; ++pass) {
+        exchange::for_each_index(triangles,
+                                 RateTask{surface, triangle_.data(), {u[0], u[1], u[2]}, rate_.data()});
+        exchange::for_each_index(
+            nodes,
+            Relieve{surface, triangle_.data(), node_.data(), rate_.data(), weight_, {u[0], u[1], u[2]}});
+    }
+    scratch_->products.sum_segments(cells_, stride_, Products{stride_, node_.data(), {u[0], u[1], u[2]}},
+                                    sums_.data());
+    exchange::for_each_index(nodes, Project{stride_, node_.data(), sums_.data(), share_, {u[0], u[1], u[2]}});
+}
+
+}  // namespace hemoflux::coupling
