@@ -5,6 +5,7 @@
 #include "coupling/interpolate.hpp"
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::coupling {
 
@@ -76,9 +77,8 @@ void Loop::step(double dt) {
 void Loop::check() {
     const std::size_t bad = fluid_.first_bad_cell();
     if (bad < fluid_.grid().view().layout.cells()) {
-        const Vec3d at = fluid_.centre(bad);
         throw NumericalError(
-            fmt::format("fluid cell {} at ({:.3f}, {:.3f}, {:.3f}) um", bad, at.x, at.y, at.z),
+            fluid::describe_cell(fluid_, bad),
             "its density or velocity is no longer a sound number; the step is probably too long",
             "shorten numerics.step_strain, or lower numerics.lattice_viscosity");
     }
