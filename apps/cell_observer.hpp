@@ -44,6 +44,10 @@ class CellObserver {
     [[nodiscard]] double area_error() const { return area_error_; }
     [[nodiscard]] double centroid_distance() const { return centroid_distance_; }
 
+    /// Volume (um^3) and area (um^2) of every cell at t = 0.
+    [[nodiscard]] const std::vector<double>& first_volumes() const { return volume0_; }
+    [[nodiscard]] const std::vector<double>& first_areas() const { return area0_; }
+
     /// Strain and inclination (degrees) of one cell over the run, for plots.
     [[nodiscard]] const std::vector<double>& strains() const { return strain_; }
     [[nodiscard]] std::vector<double> inclinations(std::size_t cell) const;

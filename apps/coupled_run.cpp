@@ -10,14 +10,12 @@
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/suspension_observer.hpp"
+#include "apps/watchdog.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
 namespace {
-
-/// Steps between two looks for NaN and lost nodes.
-constexpr long long watch_interval = 25;
 
 std::vector<std::string> history_columns(std::size_t cells, const std::vector<std::string>& more) {
     std::vector<std::string> columns{"step", "time_s", "strain"};
@@ -66,6 +64,7 @@ class CoupledRun {
         } else {
             first_density_ = system_.fluid->mean_density();
         }
+        watchdog_.emplace(case_.watchdog, observer_->first_volumes(), observer_->first_areas());
         done_ = files_.first_step();
         std::vector<std::string> columns = history_columns(
             system_.cells->cells(), suspension_ ? suspension_->columns() : std::vector<std::string>{});
@@ -96,14 +95,14 @@ class CoupledRun {
         while (done_ < system_.plan.steps) {
             const bool last = done_ + 1 == system_.plan.steps;
             const bool write = last || due(system_.plan, done_ + 1, frame_interval());
-            const bool row = write || due(system_.plan, done_ + 1, case_.output.history_interval_strain);
+            const bool row = write || due(system_.plan, done_ + 1, row_interval());
             if (row && suspension_) suspension_->before_step();
             system_.loop->step(system_.numerics.step);
             ++done_;
-            const bool save = last || due(system_.plan, done_, case_.output.checkpoint_interval_strain);
+            const bool save = last || due(system_.plan, done_, save_interval());
             const bool stop =
                 stop_asked(options_, {done_, system_.plan.at(done_), system_.plan.at(system_.plan.steps)});
-            if (row || save || stop || done_ % watch_interval == 0) system_.loop->check();
+            if (row || save || stop || done_ % case_.watchdog.interval == 0) check();
             if (row) record(system_.numerics.step);
             if (write) frame();
             if (row || save) remember();
@@ -144,6 +143,24 @@ class CoupledRun {
     /// Strain between two frames.
     [[nodiscard]] double frame_interval() const {
         return case_.output.interval ? *case_.output.interval * system_.clock : case_.output.interval_strain;
+    }
+
+    /// Strain between two rows of the history, and between two checkpoints.
+    [[nodiscard]] double row_interval() const {
+        const OutputInput& out = case_.output;
+        return out.history_interval ? *out.history_interval * system_.clock : out.history_interval_strain;
+    }
+    [[nodiscard]] double save_interval() const {
+        const OutputInput& out = case_.output;
+        return out.checkpoint_interval ? *out.checkpoint_interval * system_.clock
+                                       : out.checkpoint_interval_strain;
+    }
+
+    /// Throws NumericalError when fluid or cells have gone wrong.
+    void check() const {
+        system_.loop->check();
+        check_density(case_.watchdog, *system_.fluid);
+        watchdog_->check(*system_.cells);
     }
 
     /// step: length of the step that ends here, 0 at the start.
@@ -262,6 +279,7 @@ class CoupledRun {
     RunFiles files_;
     std::optional<CellObserver> observer_;
     std::optional<SuspensionObserver> suspension_;
+    std::optional<Watchdog> watchdog_;
     long long done_ = 0, good_step_ = 0;
     std::size_t body_column_ = 0;
     output::Checkpoint good_;

@@ -264,6 +264,7 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {
     save_flow(*fluid, checkpoint);
+    checkpoint.put_number("fluid.time", fluid->time());
     checkpoint.put("membrane.x", cells->x().to_host());
     checkpoint.put("membrane.y", cells->y().to_host());
     checkpoint.put("membrane.z", cells->z().to_host());
@@ -285,11 +286,16 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
 
 void CoupledSystem::load(const output::Checkpoint& checkpoint) {
     load_flow(*fluid, checkpoint);
+    fluid->set_time(checkpoint.number("fluid.time"));
     load_positions(*cells, checkpoint);
     if (bodies) bodies->load(checkpoint);
     coupling::CellMemory memory;
-    memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
-                              checkpoint.array("loop.viscosity_z")};
+    const auto nodes_or_none = [&](const char* name) {
+        return checkpoint.array(name).empty() ? std::vector<double>()
+                                              : checkpoint.array(name, cells->x().size());
+    };
+    memory.viscosity_nodes = {nodes_or_none("loop.viscosity_x"), nodes_or_none("loop.viscosity_y"),
+                              nodes_or_none("loop.viscosity_z")};
     const auto& target = checkpoint.array("loop.target", 3);
     std::copy(target.begin(), target.end(), memory.target.begin());
     memory.viscous = {checkpoint.array("loop.viscous_tension"), checkpoint.array("loop.viscous_length")};

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -83,6 +84,8 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ,
+                SIG_IGN);  // a limit on the size of files is then an error of write(), with its message
     hemoflux::exchange::limit_spinning(argv);
     try {
         if (argc > 1 &&

@@ -140,8 +140,8 @@ int run_membrane(const Case& c, const RunOptions& options) {
         exchange::set_threads(options.threads);
     }
     const output::OutputFolder folder(options.output, output::Folder::fresh);
-    const output::Log log(folder.log(), options.quiet);
     output::write_file(folder.resolved(), c.resolved);
+    const output::Log log(folder.log(), options.quiet);
     note_environment(log);
     output::Summary summary = start_summary(c);
     MembraneRun run{c,

@@ -137,7 +137,16 @@ std::optional<output::LatestCheckpoint> checkpoint_to_continue(const Case& c, co
     output::LatestCheckpoint latest = output::latest_checkpoint(options.restart);
     latest.checkpoint.require_text("version", HEMOFLUX_VERSION, "the version of hemoflux");
     require_same_case(latest.checkpoint.text("case"), c.resolved);
+    if (const double step = latest.checkpoint.number("step"); !(step >= 0 && step < 1e15))
+        throw InputError("the checkpoint " + latest.path.string(), fmt::format("its step is {}", step),
+                         "Restart from an older checkpoint, or start anew without --restart");
     return latest;
+}
+
+/// Writes the case before anything else, so that the folder is known as a run whatever kills it; returns the log's name.
+std::filesystem::path begin_folder(const output::OutputFolder& folder, const Case& c) {
+    output::write_file(folder.resolved(), c.resolved);
+    return folder.log();
 }
 
 }  // namespace
@@ -146,14 +155,14 @@ RunFiles::RunFiles(const Case& c, const RunOptions& options)
     : case_(c),
       continued_(checkpoint_to_continue(c, options)),
       folder_(options.output, same_folder(options) ? output::Folder::restart : output::Folder::fresh),
-      log_(folder_.log(), options.quiet, same_folder(options)) {
+      log_(begin_folder(folder_, c), options.quiet, same_folder(options)) {
     if (continued_) {
         if (!continued_->warning.empty()) log_.warn(continued_->warning);
         moved_ = !same_folder(options);
-        first_step_ = static_cast<long long>(restart()->number("step"));
+        first_step_ =
+            static_cast<long long>(restart()->number("step"));  // as checkpoint_to_continue() found it
         log_.info(fmt::format("continuing from {} (step {})", continued_->path.string(), first_step_));
     }
-    output::write_file(folder_.resolved(), c.resolved);
     note_environment(log_);
 }
 
@@ -188,7 +197,7 @@ void RunFiles::write_flow(const Case& c, const Scales& scales, const fluid::HexS
     file.replace_extension(".vtu");
     output::write_fluid(
         file, mesh, in_mesh_order(fluid_arrays(c, scales, flow, flow.options().gamma), flow.grid().original),
-        position);
+        position, c.output.compression);
     fluid_series_->add(position, file);
     if (cells || bodies)
         write_surfaces(cells, bodies, cells ? loop->grid().box() : coupling::NodeBox{}, position);
@@ -198,7 +207,8 @@ void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Sol
                            const membrane::Batch* cells, const RigidBodies* bodies, double position) {
     const auto fluid_file = folder_.fluid_file(fluid_series_->next());
     output::write_fluid(fluid_file, fluid.grid().rectilinear().axes,
-                        fluid_arrays(c, scales, fluid, fluid.options().gamma), position);
+                        fluid_arrays(c, scales, fluid, fluid.options().gamma), position,
+                        c.output.compression);
     fluid_series_->add(position, fluid_file);
     if (!cells && !bodies) return;
     const meshing::RectilinearGrid& grid = fluid.grid().rectilinear();
@@ -235,7 +245,8 @@ void RunFiles::write_surfaces(const membrane::Batch* cells, const RigidBodies* b
         }
     }
     const auto cell_file = folder_.cell_file(cell_series_->next());
-    output::write_cells(cell_file, meshes, {output::vector_array("force_pN", fx, fy, fz)}, position);
+    output::write_cells(cell_file, meshes, {output::vector_array("force_pN", fx, fy, fz)}, position, {}, {},
+                        c.output.compression);
     cell_series_->add(position, cell_file);
 }
 

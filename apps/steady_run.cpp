@@ -8,6 +8,7 @@
 #include "apps/output/convergence_plot.hpp"
 #include "coupling/held_bodies.hpp"
 #include "exchange/error.hpp"
+#include "fluid/cell_report.hpp"
 #include "fluid/probe.hpp"
 #include "fluid/steady.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 /// Iterations between two rows of the history when they are many.
 constexpr std::size_t row_interval = 10;
 
-fluid::SteadyOptions steady_options(const SteadyInput& in) {
+fluid::SteadyOptions steady_options(const SteadyInput& in, const std::optional<int>& patience) {
     fluid::SteadyOptions o;
     o.method =
         in.method == SteadyMethod::implicit ? fluid::SteadyMethod::newton : fluid::SteadyMethod::local_steps;
@@ -28,6 +29,7 @@ fluid::SteadyOptions steady_options(const SteadyInput& in) {
     o.most_iterations = static_cast<std::size_t>(in.iterations);
     o.sigma = in.sigma;
     o.c = in.viscous_weight;
+    if (patience) o.patience = o.newton_patience = static_cast<std::size_t>(*patience);
     return o;
 }
 
@@ -67,7 +69,13 @@ class SteadyRun {
                               "evaluations", "cpu_s", "krylov", "courant"});
         files_.start_series(0);
         const auto start = std::chrono::steady_clock::now();
-        const int code = watched(files_.log(), [this] { return iterate(); });
+        int code = static_cast<int>(Exit::done);
+        try {
+            code = watched(files_.log(), [this] { return iterate(); });
+        } catch (const NumericalError&) {
+            keep_last_good_state();
+            throw;
+        }
         wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         keep();
         if (code != static_cast<int>(Exit::done)) {
@@ -76,6 +84,8 @@ class SteadyRun {
             return code;
         }
         report();
+        if (result_.end == fluid::SteadyEnd::stalled)
+            watched(files_.log(), [this] { return report_stall(); });
         return code;
     }
 
@@ -100,9 +110,13 @@ class SteadyRun {
     }
 
     int iterate() {
-        const fluid::SteadyOptions options = steady_options(*case_.steady);
+        const fluid::SteadyOptions options = steady_options(*case_.steady, case_.watchdog.patience);
         const auto each = [&](const fluid::SteadyRecord& r) {
-            if (options.method == fluid::SteadyMethod::newton || r.iteration % row_interval == 1) record(r);
+            if (options.method == fluid::SteadyMethod::newton || r.iteration % row_interval == 1) {
+                record(r);
+                good_ = state();
+                good_iteration_ = r.iteration;
+            }
             const auto iteration = static_cast<long long>(r.iteration);
             return !stop_asked(options_, {iteration, static_cast<double>(iteration),
                                           static_cast<double>(options.most_iterations)});
@@ -124,12 +138,39 @@ class SteadyRun {
                         static_cast<double>(r.krylov), r.courant});
     }
 
-    void keep() {
-        write_frame(files_, case_, system_, 0);
+    [[nodiscard]] output::Checkpoint state() const {
         output::Checkpoint checkpoint;
         save_flow(*system_.flow, checkpoint);
         if (system_.bodies) system_.bodies->save(checkpoint);
-        files_.write_checkpoint(checkpoint, static_cast<long long>(result_.last.iteration));
+        return checkpoint;
+    }
+
+    void keep() {
+        write_frame(files_, case_, system_, 0);
+        files_.write_checkpoint(state(), static_cast<long long>(result_.last.iteration));
+    }
+
+    void keep_last_good_state() {
+        if (good_iteration_ == 0) return;
+        files_.write_checkpoint(good_, static_cast<long long>(good_iteration_));
+        files_.log().warn(
+            fmt::format("the state of iteration {} is kept; start another run from there with --set "
+                        "steady.start={}",
+                        good_iteration_, files_.folder().path().string()));
+    }
+
+    /// Ends a run whose residual no longer falls; the results are written, but they are not those of a steady flow.
+    [[noreturn]] int report_stall() const {
+        throw NumericalError(
+            fmt::format("the residual stalls at {:.3g} of its first value, the largest part in {}",
+                        result_.lowest,
+                        fluid::describe_cell(*system_.flow, fluid::least_steady_cell(*system_.flow))),
+            "it no longer falls, so the flow is not steady: it may oscillate by itself, or a corner or a "
+            "limit on tau "
+            "feeds it; the last state is kept",
+            "raise steady.tolerance or watchdog.patience, choose another steady.method, or go on in time "
+            "with [time] in "
+            "place of [steady]");
     }
 
     void report() {
@@ -189,6 +230,8 @@ class SteadyRun {
     std::optional<FlowObserver> observer_;
     RunFiles files_;
     fluid::SteadyResult result_;
+    output::Checkpoint good_;
+    std::size_t good_iteration_ = 0;
     double wall_s_ = 0;
 };
 

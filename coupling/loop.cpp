@@ -6,6 +6,7 @@
 #include "coupling/hex_cells.hpp"
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::coupling {
 
@@ -90,13 +91,11 @@ void Loop::step(double dt) {
 
 void Loop::check() {
     const std::size_t bad = fluid_.first_bad_cell();
-    if (bad < fluid_.cells()) {
-        const Vec3d at = fluid_.centre(bad);
+    if (bad < fluid_.cells())
         throw NumericalError(
-            fmt::format("fluid cell {} at ({:.3f}, {:.3f}, {:.3f}) um", bad, at.x, at.y, at.z),
+            fluid::describe_cell(fluid_, bad),
             "its density or velocity is no longer a sound number; the step is probably too long",
             "shorten numerics.step_strain, or lower numerics.lattice_viscosity");
-    }
     for (const auto& p : partners_) {
         p->link->locate(p->position);
         const std::size_t lost = p->link->first_lost();

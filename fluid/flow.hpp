@@ -55,6 +55,7 @@ class Flow {
     /// The time at which the state stands, 0 at first. Boundary conditions and forces that change in time are taken at
     /// this time by evaluate(), and at the times of the stages by step().
     virtual void set_time(double t) = 0;
+    [[nodiscard]] virtual double time() const = 0;
     /// Evaluates R(Q) = dQ/dt.
     virtual void evaluate() = 0;
     /// One time step of the solver's scheme; the time moves on by dt.

@@ -36,7 +36,7 @@ class HexSolver final : public Flow {
     [[nodiscard]] std::vector<double> coefficient(int component) const;
 
     void set_time(double t) override;
-    [[nodiscard]] double time() const { return time_; }
+    [[nodiscard]] double time() const override { return time_; }
     void evaluate() override;
     void step(double dt) override;
     [[nodiscard]] std::size_t evaluations() const override { return evaluations_; }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "exchange/error.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::fluid {
 namespace {
@@ -58,10 +59,8 @@ void check_finite(Flow& flow, const SteadyRecord& record) {
     if (std::isfinite(record.measure) && record.measure < 1e3 && record.iteration % 100 != 0) return;
     const std::size_t bad = flow.first_bad_cell();
     if (bad == flow.cells() && std::isfinite(record.measure)) return;
-    const std::size_t cell = bad < flow.cells() ? bad : 0;
-    const Vec3d x = flow.centre(cell);
     throw NumericalError(
-        fmt::format("cell {} at ({:.6g}, {:.6g}, {:.6g})", cell, x.x, x.y, x.z),
+        describe_cell(flow, bad < flow.cells() ? bad : 0),
         fmt::format("density or speed left its range in iteration {} on the way to the steady state",
                     record.iteration),
         "lower the Courant number, or raise tau_floor or the viscosity");

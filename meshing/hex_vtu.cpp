@@ -15,8 +15,10 @@
 
 #include <cmath>
 #include <map>
+#include <new>
 
 #include "meshing/hex_formats.hpp"
+#include "meshing/vtk_check.hpp"
 #include "meshing/vtk_listener.hpp"
 
 namespace hemoflux::meshing {
@@ -82,13 +84,21 @@ HexMesh sort_cells(vtkUnstructuredGrid* data) {
 }  // namespace
 
 HexMesh read_vtu(const std::string& file) {
+    const std::string text = file_text(file);
+    check_vtk(text, "UnstructuredGrid");
+    const VtkSilence silence;
     vtkNew<VtkListener> listener;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->AddObserver(vtkCommand::ErrorEvent, listener);
     reader->SetParserErrorObserver(listener);
     reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
-    reader->SetFileName(file.c_str());
-    reader->Update();
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(text);
+    try {
+        reader->Update();
+    } catch (const std::bad_alloc&) {
+        throw FormatError("it claims more values than memory holds");
+    }
     if (!listener->first().empty()) throw FormatError(listener->first());
     vtkUnstructuredGrid* data = reader->GetOutput();
     HexMesh mesh = sort_cells(data);

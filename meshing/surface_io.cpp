@@ -89,12 +89,18 @@ SurfaceMesh read_surface(const fs::path& path) {
 
 void write_surface(const fs::path& path, const SurfaceMesh& mesh) {
     const std::string text = format_of(path).print(mesh);
+    const fs::path whole = path.parent_path() / fmt::format(".{}.tmp", path.filename().string());
     errno = 0;
-    std::ofstream out(path, std::ios::binary);
+    std::ofstream out(whole, std::ios::binary);
     if (out) out.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
-    if (!out)
-        throw FileError("surface file " + path.string(), "it cannot be written: " + reason_of(errno),
-                        "Check that the folder exists, is writable and has space left");
+    if (out) out.close();
+    std::error_code error(out ? 0 : errno, std::generic_category());
+    if (!error) fs::rename(whole, path, error);
+    if (!error) return;
+    std::error_code ignored;
+    fs::remove(whole, ignored);  // nothing truncated stays behind, and an older file is still there
+    throw FileError("surface file " + path.string(), "it cannot be written: " + error.message(),
+                    "Check that the folder exists, is writable and has space left");
 }
 
 }  // namespace hemoflux::meshing
