@@ -15,7 +15,7 @@ packages=(
   pybind11-dev python3-dev python3-numpy                        # Python package
 )
 # Checks of changes to the code; installed where CI=true.
-[[ ${CI:-} == true ]] && packages+=(doxygen)
+[[ ${CI:-} == true ]] && packages+=(doxygen chromium)
 preset=release
 case_file=apps/cases/tank_treading_quick.toml
 results=results/tank_treading_quick

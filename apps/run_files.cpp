@@ -246,7 +246,7 @@ void RunFiles::write_surfaces(const membrane::Batch* cells, const RigidBodies* b
     }
     const auto cell_file = folder_.cell_file(cell_series_->next());
     output::write_cells(cell_file, meshes, {output::vector_array("force_pN", fx, fy, fz)}, position, {}, {},
-                        c.output.compression);
+                        case_.output.compression);
     cell_series_->add(position, cell_file);
 }
 
