@@ -56,6 +56,8 @@ coupling::Numerics numerics_of(const Case& c, double smallest, double sheared) {
         p.largest_cytosol = std::max(p.largest_cytosol, each.cytosol_viscosity);
     p.shear_rate = clock_rate(c);
     p.shear_modulus = cell.shear_modulus;
+    p.area_modulus = cell.area_modulus;
+    p.local_area_modulus = cell.local_area_modulus;
     p.radius = rest_state(cell).radius();
     p.wall_distance = c.shear_rate ? flow_reach(c, sheared) : p.radius;
     p.smallest_cell = smallest;

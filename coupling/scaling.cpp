@@ -63,7 +63,8 @@ Numerics choose_numerics(const PhysicalCase& p, const NumericsChoice& choice) {
     n.physical_reynolds = p.shear_rate * diameter * diameter * 1e-12 * p.density / p.viscosity;
 
     const bool factored = choice.scheme == fluid::Scheme::factored,
-               damped = factored && choice.kernel == Kernel::lagrange;
+               damped = factored && choice.kernel == Kernel::lagrange &&
+                        std::min(p.area_modulus, p.local_area_modulus) >= stiff_area * p.shear_modulus;
     const double gain =
         choice.kernel == Kernel::phi3 || choice.kernel == Kernel::phi4 ? smooth_kernel_gain : 1;
     const double undamped = membrane_fraction * gain * n.capillary;  // G dt for dt = fraction mu R0/K_S

@@ -27,6 +27,9 @@ struct PhysicalCase {
     double radius = 0;           ///< R0 = sqrt(A0 / 4 pi), um
     double wall_distance = 0;    ///< greatest distance of a sheared wall from the plane at rest, um
     double smallest_cell = 0;    ///< h, um
+    /// Moduli of area and triangle areas, N/m. Where both are at least `stiff_area` K_S the areas are constraints, whose
+    /// rates may be damped; a capsule's areas are not.
+    double area_modulus = 0, local_area_modulus = 0;
 };
 
 /// What the user may choose; zero means: let the program.
@@ -62,6 +65,8 @@ struct Numerics {
 /// The membrane allows steps of about 0.05 mu R0/K_S with Lagrange weights and twice that with phi4; chosen
 /// is a bit less.
 inline constexpr double membrane_fraction = 0.0425, smooth_kernel_gain = 2;
+/// Moduli of area over K_S from which areas count as constraints; those of Tables 6.1 and 6.2 are 16 and more.
+inline constexpr double stiff_area = 10;
 /// What damped constraints gain with the factored scheme and Lagrange weights: steps of 0.106 mu R0/K_S are stable with a
 /// cell of 2562 nodes on 30^3 cells, 0.085 are chosen.
 inline constexpr double damped_gain = 2;

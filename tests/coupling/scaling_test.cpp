@@ -18,6 +18,8 @@ PhysicalCase tank_treading() {
     p.radius = 3.2655;
     p.wall_distance = 6;
     p.smallest_cell = 0.2687;
+    p.area_modulus = 1e-3;
+    p.local_area_modulus = 1e-4;
     return p;
 }
 
@@ -87,6 +89,10 @@ TEST(Scaling, DampsTheConstraintsBeyondTheExplicitLimit) {
     choice.kernel = Kernel::phi4;
     EXPECT_EQ(choose_numerics(p, choice).constraint_damping, 0);
     choice = {};
+    PhysicalCase capsule = p;
+    capsule.local_area_modulus = 0;
+    EXPECT_EQ(choose_numerics(capsule, choice).constraint_damping, 0);
+    EXPECT_NEAR(choose_numerics(capsule, choice).step_strain, membrane_fraction * slow.capillary, 1e-15);
     choice.scheme = fluid::Scheme::euler;
     EXPECT_EQ(choose_numerics(p, choice).constraint_damping, 0);
     EXPECT_LE(choose_numerics(p, choice).step_strain, membrane_fraction * slow.capillary);
