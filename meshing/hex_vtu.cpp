@@ -13,9 +13,12 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <new>
+#include <system_error>
 
 #include "meshing/hex_formats.hpp"
 #include "meshing/vtk_check.hpp"
@@ -139,11 +142,15 @@ void write_vtu(const std::string& file, const HexMesh& mesh) {
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
     writer->AddObserver(vtkCommand::ErrorEvent, listener);
     writer->SetInputData(data);
-    writer->SetFileName(file.c_str());
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
+    writer->WriteToOutputStringOn();  // VTK does not always say when the disk is full
     if (writer->Write() == 0 || !listener->first().empty())
         throw FormatError(listener->first().empty() ? "VTK does not say why" : listener->first());
+    const std::string text = writer->GetOutputString();
+    std::ofstream out(file, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
+    if (!out) throw FormatError(std::generic_category().message(errno));
 }
 
 }  // namespace hemoflux::meshing

@@ -89,37 +89,40 @@ TEST_F(Restart, WithoutACheckpointIsAFileError) {
     expect_error("run --restart empty", 4, "no checkpoint");
 }
 
-/// A run is sent the signal, writes a checkpoint, says how to go on, and ends where an uninterrupted one ends.
-void Restart::interrupt_by(int signal) const {
-    const pid_t pid = start(small_run + "--set time.strain=1 -o out", "printed.txt");
-    const auto rows = [&] {
-        const fs::path history = folder_ / "out/history.csv";
-        if (!fs::exists(history)) return std::ptrdiff_t{0};
-        const std::string text = output::read_file(history);
-        return std::count(text.begin(), text.end(), '\n');
-    };
-    const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(5);
-    while (rows() < 4 && std::chrono::steady_clock::now() < give_up)
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ASSERT_EQ(::kill(pid, signal), 0);
-    int status = 0;
-    ASSERT_EQ(::waitpid(pid, &status, 0), pid);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_NE(content("printed.txt").find("hemoflux run --restart out"), std::string::npos)
-        << content("printed.txt");
-    EXPECT_FALSE(fs::exists(folder_ / "out/summary.json"));
+class Interruption : public Restart {
+  protected:
+    /// A run is sent the signal, writes a checkpoint, says how to go on, and ends where an uninterrupted one ends.
+    void interrupt_by(int signal) const {
+        const pid_t pid = start(small_run + "--set time.strain=1 -o out", "printed.txt");
+        const auto rows = [&] {
+            const fs::path history = folder_ / "out/history.csv";
+            if (!fs::exists(history)) return std::ptrdiff_t{0};
+            const std::string text = output::read_file(history);
+            return std::count(text.begin(), text.end(), '\n');
+        };
+        const auto give_up = std::chrono::steady_clock::now() + std::chrono::minutes(5);
+        while (rows() < 4 && std::chrono::steady_clock::now() < give_up)
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ASSERT_EQ(::kill(pid, signal), 0);
+        int status = 0;
+        ASSERT_EQ(::waitpid(pid, &status, 0), pid);
+        ASSERT_TRUE(WIFEXITED(status));
+        EXPECT_EQ(WEXITSTATUS(status), 130);
+        EXPECT_NE(content("printed.txt").find("hemoflux run --restart out"), std::string::npos)
+            << content("printed.txt");
+        EXPECT_FALSE(fs::exists(folder_ / "out/summary.json"));
 
-    ASSERT_EQ(run("run --quiet --restart out").code, 0);
-    ASSERT_EQ(run(small_run + "--set time.strain=1 -o whole").code, 0);
-    expect_same_end("whole", "out");
-}
+        ASSERT_EQ(run("run --quiet --restart out").code, 0);
+        ASSERT_EQ(run(small_run + "--set time.strain=1 -o whole").code, 0);
+        expect_same_end("whole", "out");
+    }
+};
 
-TEST_F(Restart, AfterAnInterruption) { interrupt_by(SIGINT); }
-TEST_F(Restart, AfterATermination) { interrupt_by(SIGTERM); }
+TEST_F(Interruption, ByTheKeyboard) { interrupt_by(SIGINT); }
+TEST_F(Interruption, ByATermination) { interrupt_by(SIGTERM); }
 
 /// A cell between two plates, the upper of which swings: the boundary condition has a clock.
-const std::string swinging = R"(title = "Swinging plate"
+const std::string swinging = R"toml(title = "Swinging plate"
 kind = "coupled"
 [fluid]
 viscosity = "22 mPa s"
@@ -131,13 +134,11 @@ cells = [12, 12, 12]
 x = "periodic"
 z = "periodic"
 "y-" = { velocity = "no-slip" }
-"y+" = { velocity = "expression", velocity_expression = ["2e-5*sin(60*t)", "0", "0"]
-}
+"y+" = { velocity = "expression", velocity_expression = ["2e-5*sin(60*t)", "0", "0"] }
 [shear]
 rate = "3 1/s"
 [[cell]]
 nodes = 162
-shape = "evans-fung"
 position = ["0 um", "-2 um", "0 um"]
 [time]
 strain = 0.2
@@ -145,9 +146,9 @@ strain = 0.2
 interval_strain = 0.1
 checkpoint_interval_strain = 0.12
 pictures = false
-)";
+)toml";
 const std::string second_cell =
-    "[[cell]]\nnodes = 162\nshape = \"evans-fung\"\nposition = [\"0.5 um\", \"2 um\", \"0 um\"]\n"
+    "[[cell]]\nnodes = 162\nposition = [\"0.5 um\", \"2 um\", \"0 um\"]\n"
     "[contact]\npressure = \"1 Pa\"\n[time]";
 const std::string body =
     "[[body]]\ndiameter = \"3 um\"\nmotion = \"free\"\nposition = [\"0 um\", \"3 um\", \"0 um\"]\n[time]";

@@ -44,8 +44,6 @@ class Restart : public Program {
         fs::remove_all(folder_ / "cut");
     }
 
-    void interrupt_by(int signal) const;
-
     /// Starts the program, its output in `log`.
     [[nodiscard]] pid_t start(const std::string& arguments, const std::string& log) const {
         const pid_t pid = ::fork();
