@@ -37,9 +37,9 @@ void check_patches(const Section& top, const std::string& name) {
             refuse(name, fmt::format("boundary.\"{}\"", side),
                    patch->has("periodic") ? "it is periodic and has a velocity" : "its velocity is not given",
                    "Give velocity, or of a mesh periodic = \"OTHER PATCH\"");
-        if (patch->has("periodic") && !mesh)
+        if (patch->has("periodic") && (!mesh || side.size() == 1))
             refuse(name, fmt::format("boundary.\"{}\".periodic", side),
-                   "the sides of a box have their opposite sides", "Write x = \"periodic\"");
+                   "the sides of an axis have their opposite sides", "Write x = \"periodic\"");
         if (mesh && patch->text("velocity") == "parabolic")
             refuse(name, fmt::format("boundary.\"{}\" has velocity = \"parabolic\"", side),
                    "it is known for the sides of a box only", "Write the profile as velocity_expression");
