@@ -30,7 +30,7 @@ struct TriangleGradient {
     double inverse_area;
 };
 
-/// Gradients at one node: dV/dR, dA/dR, and 1/d_i (0 at padding).
+/// Gradients at one node: dV/dR, dA/dR, and 1/d_i; at padding those of the first vertex of its cell.
 struct NodeGradient {
     Vec3d volume, area;
     double inverse_scale;
@@ -59,7 +59,7 @@ class ConstraintDamping {
 
   private:
     struct Scratch;
-    std::size_t triangles_, stride_, cells_;
+    std::size_t triangles_, vertices_, stride_, cells_;
     double share_, weight_;
     exchange::Buffer<int> corners_, ring_begin_, ring_;
     exchange::Buffer<TriangleGradient> triangle_;

@@ -129,7 +129,7 @@ TEST_F(BadInput, CellsAndBodies) {
         {shear_flow + "[[cell]]\nnodes = 162\n", {"case.toml", "kind \"fluid\""}},
         {shear_flow + "[[body]]\n", {"case.toml", "body", "no size"}},
         {shear_flow + "[[body]]\ndiameter = \"2 um\"\nposition = [\"0 um\", \"9 um\", \"0 um\"]\n",
-         {"body.0 reaches through the side"}},
+         {"body.0 reaches through the border"}},
         {shear_flow + "[[body]]\nfile = \"none.stl\"\n", {"none.stl"}, 4},
         {membrane_with("task = \"strech\"\n"), {"line 6", "\"stretch\" was meant"}},
         {membrane_with("forces = []\n"), {"case.toml", "membrane.forces is empty"}},

@@ -183,7 +183,7 @@ TEST_F(Run, CoupledFailureKeepsTheLastGoodState) {
     const Outcome outcome = run(small_run + "-o out --set numerics.step_strain=0.05 --set time.strain=2");
     EXPECT_EQ(outcome.code, 3);
     EXPECT_NE(outcome.text.find("error: fluid cell "), std::string::npos) << outcome.text;
-    EXPECT_NE(outcome.text.find(" um: "), std::string::npos) << outcome.text;
+    EXPECT_NE(outcome.text.find(" um, density "), std::string::npos) << outcome.text;
     EXPECT_NE(outcome.text.find("the last good state"), std::string::npos) << outcome.text;
     EXPECT_NE(content("out/log.txt").find("fluid cell "), std::string::npos);
     EXPECT_FALSE(fs::exists(folder_ / "out/summary.json"));
