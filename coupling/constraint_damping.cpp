@@ -61,11 +61,10 @@ struct NodeTask {
 };
 
 struct Products {
-    std::size_t stride, vertices;
+    std::size_t stride;
     const NodeGradient* node;
     const double* u[3];
     HEMOFLUX_FN GradientSums operator()(std::size_t cell, std::size_t v) const {
-        if (v >= vertices) return {};
         const std::size_t i = cell * stride + v;
         const NodeGradient& g = node[i];
         const Vec3d velocity = at(u, i);
@@ -132,11 +131,17 @@ struct Relieve {
     }
 };
 
-std::size_t vertices_of(const std::vector<std::array<int, 3>>& triangles) {
-    int last = -1;
-    for (const auto& t : triangles) last = std::max({last, t[0], t[1], t[2]});
-    return static_cast<std::size_t>(last + 1);
-}
+/// The nodes that pad a cell go with its first one, on which they lie.
+struct MovePadding {
+    std::size_t stride;
+    const int* ring_begin;
+    double* u[3];
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        const std::size_t v = i % stride;
+        if (ring_begin[v] < ring_begin[v + 1]) return;
+        for (int q = 0; q < 3; ++q) u[q][i] = u[q][i - v];
+    }
+};
 
 }  // namespace
 
@@ -147,7 +152,6 @@ struct ConstraintDamping::Scratch {
 ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& triangles, std::size_t stride,
                                      std::size_t cells, double strength)
     : triangles_(triangles.size()),
-      vertices_(vertices_of(triangles)),
       stride_(stride),
       cells_(cells),
       share_(share_per_strength * strength / (1 + share_per_strength * strength)),
@@ -160,13 +164,7 @@ ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& tria
     std::vector<int> corners;
     for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
     corners_ = exchange::Buffer<int>(corners);
-    TriangleRings rings(triangles, stride);
-    // padding has the ring of the first vertex, with which it moves
-    const std::vector<int> first(rings.corner.begin(), rings.corner.begin() + rings.begin[1]);
-    for (std::size_t v = vertices_; v < stride; ++v) {
-        rings.corner.insert(rings.corner.end(), first.begin(), first.end());
-        rings.begin[v + 1] = static_cast<int>(rings.corner.size());
-    }
+    const TriangleRings rings(triangles, stride);
     ring_begin_ = exchange::Buffer<int>(rings.begin);
     ring_ = exchange::Buffer<int>(rings.corner);
 }
@@ -186,9 +184,11 @@ void ConstraintDamping::apply(const double* x, const double* y, const double* z,
             nodes,
             Relieve{surface, triangle_.data(), node_.data(), rate_.data(), weight_, {u[0], u[1], u[2]}});
     }
-    scratch_->products.sum_segments(
-        cells_, stride_, Products{stride_, vertices_, node_.data(), {u[0], u[1], u[2]}}, sums_.data());
+    scratch_->products.sum_segments(cells_, stride_, Products{stride_, node_.data(), {u[0], u[1], u[2]}},
+                                    sums_.data());
     exchange::for_each_index(nodes, Project{stride_, node_.data(), sums_.data(), share_, {u[0], u[1], u[2]}});
+    exchange::for_each_index(nodes, MovePadding{stride_, ring_begin_.data(), {u[0], u[1], u[2]}},
+                             exchange::Cost::cheap);
 }
 
 }  // namespace hemoflux::coupling

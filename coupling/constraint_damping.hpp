@@ -30,7 +30,7 @@ struct TriangleGradient {
     double inverse_area;
 };
 
-/// Gradients at one node: dV/dR, dA/dR, and 1/d_i; at padding those of the first vertex of its cell.
+/// Gradients at one node: dV/dR, dA/dR, and 1/d_i (0 at padding).
 struct NodeGradient {
     Vec3d volume, area;
     double inverse_scale;
@@ -54,12 +54,13 @@ class ConstraintDamping {
                       double strength);
     ~ConstraintDamping();
 
-    /// Damps velocities u (device, in place) of the nodes at x, y, z (device, um).
+    /// Damps velocities u (device, in place) of the nodes at x, y, z (device, um). Padding gets the velocity of the first
+    /// node of its cell.
     void apply(const double* x, const double* y, const double* z, const std::array<double*, 3>& u);
 
   private:
     struct Scratch;
-    std::size_t triangles_, vertices_, stride_, cells_;
+    std::size_t triangles_, stride_, cells_;
     double share_, weight_;
     exchange::Buffer<int> corners_, ring_begin_, ring_;
     exchange::Buffer<TriangleGradient> triangle_;

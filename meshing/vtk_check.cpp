@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <string_view>
@@ -46,7 +47,12 @@ void check_counts(std::string_view markup, const char* name, std::uint64_t most)
 
 void check_vtk(const std::string& text, const std::string& type) {
     const std::size_t root = text.find("<VTKFile");
-    if (root == std::string::npos) throw FormatError("it has no element <VTKFile>");
+    if (root == std::string::npos) {
+        std::string begin = text.substr(0, std::min<std::size_t>(text.find('\n'), 40));
+        std::replace_if(
+            begin.begin(), begin.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+        throw FormatError(fmt::format("it has no element <VTKFile>; line 1 begins with \"{}\"", begin));
+    }
     const std::string_view head = std::string_view(text).substr(root, text.find('>', root) - root);
     if (head.find("type=\"" + type + "\"") == std::string_view::npos)
         throw FormatError(fmt::format("it is not a VTKFile of type {}", type));
