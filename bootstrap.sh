@@ -12,7 +12,10 @@ packages=(
   liblbfgspp-dev                                                # static relaxation
   libgtest-dev libbenchmark-dev                                 # tests
   gnuplot-nox xvfb xauth libgl1-mesa-dri fonts-dejavu-core      # plots and pictures
+  pybind11-dev python3-dev python3-numpy                        # Python package
 )
+# Checks of changes to the code; installed where CI=true.
+[[ ${CI:-} == true ]] && packages+=(doxygen chromium)
 preset=release
 case_file=apps/cases/tank_treading_quick.toml
 results=results/tank_treading_quick

@@ -10,6 +10,7 @@
 #include "apps/case_rules.hpp"
 #include "apps/case_suspension.hpp"
 #include "apps/choice.hpp"
+#include "apps/prefix.hpp"
 #include "apps/toml_input.hpp"
 #include "exchange/error.hpp"
 
@@ -37,7 +38,10 @@ OutputInput read_output(const Section& in) {
     OutputInput output{in.number("interval_strain"),
                        in.maybe("interval"),
                        in.number("history_interval_strain"),
+                       in.maybe("history_interval"),
                        in.number("checkpoint_interval_strain"),
+                       in.maybe("checkpoint_interval"),
+                       in.integer("compression"),
                        in.texts("fields"),
                        in.flag("pictures"),
                        {}};
@@ -119,6 +123,9 @@ Case read_values(const toml::table& values) {
     if (const auto output = in.table("output")) {
         c.output = read_output(*output);
     }
+    if (const auto watchdog = in.table("watchdog")) {
+        c.watchdog = read_watchdog(*watchdog);
+    }
     if (const auto observables = in.table("observables")) {
         c.observables = read_observables(*observables);
     }
@@ -167,27 +174,29 @@ Case parse_case(const std::string& text, const std::string& name, const std::fil
     return finish(parse_toml(text, name), name, folder, overrides);
 }
 
+namespace {
+
+meshing::Axis make_axis(const GridInput& grid, std::size_t d) {
+    const double lower = grid.lower[d], upper = lower + grid.length[d];
+    switch (grid.kind[d]) {
+        case AxisKind::uniform:
+            return meshing::uniform_axis(lower, upper, grid.cells[d]);
+        case AxisKind::plateau:
+            return meshing::plateau_axis(lower, upper, grid.cells[d], grid.plateau_a, grid.plateau_b);
+        case AxisKind::chebyshev:
+            return meshing::chebyshev_axis(lower, upper, grid.cells[d]);
+        case AxisKind::given:
+            break;
+    }
+    return meshing::explicit_axis(grid.faces[d]);
+}
+
+}  // namespace
+
 meshing::RectilinearGrid make_grid(const GridInput& grid) {
     meshing::RectilinearGrid result;
-    for (std::size_t d = 0; d < 3; ++d) {
-        const double lower = grid.lower[d];
-        const double upper = lower + grid.length[d];
-        switch (grid.kind[d]) {
-            case AxisKind::uniform:
-                result.axes[d] = meshing::uniform_axis(lower, upper, grid.cells[d]);
-                break;
-            case AxisKind::plateau:
-                result.axes[d] =
-                    meshing::plateau_axis(lower, upper, grid.cells[d], grid.plateau_a, grid.plateau_b);
-                break;
-            case AxisKind::chebyshev:
-                result.axes[d] = meshing::chebyshev_axis(lower, upper, grid.cells[d]);
-                break;
-            case AxisKind::given:
-                result.axes[d] = meshing::explicit_axis(grid.faces[d]);
-                break;
-        }
-    }
+    for (std::size_t d = 0; d < 3; ++d)
+        result.axes[d] = placed(fmt::format("[grid], axis {}", "xyz"[d]), [&] { return make_axis(grid, d); });
     return result;
 }
 

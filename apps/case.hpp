@@ -10,6 +10,7 @@
 
 #include "apps/case_observables.hpp"
 #include "apps/case_rigid.hpp"
+#include "apps/case_watchdog.hpp"
 #include "membrane/shapes.hpp"
 #include "membrane/stretch.hpp"
 #include "meshing/rectilinear.hpp"
@@ -254,8 +255,11 @@ struct OutputInput {
     double interval_strain = 0.5;
     std::optional<double> interval;  ///< s
     double history_interval_strain = 0.05;
-    double checkpoint_interval_strain = 5;  ///< 0: none
-    std::vector<std::string> fields;        ///< of velocity, density, viscosity, force
+    std::optional<double> history_interval;     ///< s
+    double checkpoint_interval_strain = 5;      ///< 0: none
+    std::optional<double> checkpoint_interval;  ///< s
+    int compression = 1;                        ///< zlib level, 0: none
+    std::vector<std::string> fields;            ///< of velocity, density, viscosity, force
     bool pictures = true;
     std::optional<std::array<double, 2>> window_strain;  ///< empty: the last 60 % of the run
     bool operator==(const OutputInput&) const = default;
@@ -298,6 +302,7 @@ struct Case {
     NumericsInput numerics;
     MembraneInput membrane;
     OutputInput output;
+    WatchdogInput watchdog;
     std::optional<ObservablesInput> observables;
     std::vector<ProfileInput> profiles;
     std::vector<ReferenceInput> references;

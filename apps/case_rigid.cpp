@@ -63,12 +63,13 @@ void check_rigid_rules(const Section& top, const std::string& name) {
     if (top.text("kind") == "membrane")
         refuse("a [[body]] in a case of kind \"membrane\"", "there is no fluid around it",
                "Write kind = \"fluid\" or \"coupled\", or remove the body");
-    if (top.table("steady"))
-        refuse("a [[body]] with [steady]", "its forces are found step by step in time",
+    if (const auto steady = top.table("steady"); steady && steady->text("method") != "implicit")
+        refuse("a [[body]] with steady.method = \"local-steps\"",
+               "the forces that hold it are unknowns, which only the implicit method solves for",
+               "Leave steady.method out");
+    if (const auto grid = top.table("grid"); top.table("steady") && grid && grid->table("mesh"))
+        refuse("a [[body]] with [steady] and grid.mesh", "the implicit method holds bodies in boxes of cells",
                "Replace [steady] by [time], with steady = 1e-6 to end the run in the steady state");
-    if (const auto grid = top.table("grid"); grid && grid->table("mesh"))
-        refuse("a [[body]] with grid.mesh", "bodies are immersed in boxes of cells",
-               "Give the grid length and cells, or let the mesh follow the body");
     if (const auto coupling = top.table("coupling"); coupling && coupling->flag("recentre"))
         refuse("a [[body]] with coupling.recentre", "cells would be moved and bodies not",
                "Set coupling.recentre = false");
@@ -96,6 +97,10 @@ void check_rigid_rules(const Section& top, const std::string& name) {
         if (cylinder && b.text("motion") != "prescribed")
             refuse(fmt::format("{}.motion = \"{}\"", what, b.text("motion")),
                    "a cylinder is open at its ends and has no inertia", "Write motion = \"prescribed\"");
+        if (top.table("steady") && b.text("method") != "direct")
+            refuse(fmt::format("{}.method = \"feedback\" with [steady]", what),
+                   "the forces of a steady flow are found exactly, without springs",
+                   "Leave method out, or replace [steady] by [time]");
         if (b.has("stiffness") && b.maybe("stiffness") && b.text("method") == "direct")
             refuse(fmt::format("{}.stiffness with method = \"direct\"", what), "it would have no effect",
                    "Remove it, or write method = \"feedback\"");

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/case_rigid.hpp"
+#include "apps/prefix.hpp"
 #include "apps/schema.hpp"
 #include "apps/toml_input.hpp"
 #include "apps/units.hpp"
@@ -104,7 +105,8 @@ void check_grid(const toml::table& values, const std::string& name) {
         return;
     }
     const Section grid = *Section(case_schema(), values).table("grid");
-    if (grid.table("mesh")) {
+    if (const auto mesh = grid.table("mesh")) {
+        placed(name + ": grid.mesh.unit", [&] { return conversion(mesh->text("unit"), "um"); });
         return;
     }
     std::vector<std::string> kinds = grid.texts("kind");
@@ -134,62 +136,8 @@ void check_grid(const toml::table& values, const std::string& name) {
         refuse(name, "key \"plateau\" is missing in [grid]", "a plateau axis needs its two parameters",
                "Add plateau = { a = 10, b = 0.2 }");
     }
-    if (const auto faces = grid.table("faces")) {
-        conversion(faces->text("unit"), "um");
-    }
-}
-
-void check_time(const toml::table& values, const std::string& name) {
-    if (!values.contains("time") || values.contains("steady")) {
-        return;
-    }
-    const Section top(case_schema(), values);
-    const Section time = *top.table("time");
-    const auto exact = top.table("analytical");
-    const bool timed = exact && !exact->numbers("times").empty();
-    if (timed && (time.has("strain") || time.has("duration"))) {
-        refuse(name, "analytical.times and the length of the run are both given",
-               "the last of the times ends the run", "Remove time.duration, or the times");
-    }
-    if (!timed && time.has("strain") == time.has("duration")) {
-        refuse(name,
-               time.has("strain") ? "time.strain and time.duration are both given" : "the run has no length",
-               "exactly one of them says when it ends", "Keep one, e.g. strain = 25 in [time]");
-    }
-    const bool sheared = values.contains("shear") || values["kind"].value_or(std::string()) == "coupled";
-    if (time.has("strain") && !sheared) {
-        refuse(name, "time.strain is given without [shear]", "strain is shear rate times time",
-               "Add [shear] with a rate, or give duration = \"1 s\" instead");
-    }
-    const bool step = time.maybe("step").has_value();
-    const bool step_strain = top.table("numerics")->maybe("step_strain").has_value();
-    if (step && step_strain) {
-        refuse(name, "time.step and numerics.step_strain are both given", "a run has one time step",
-               "Keep one of them");
-    }
-    if (step_strain && !sheared) {
-        refuse(name, "numerics.step_strain is given without [shear]", "strain is shear rate times time",
-               "Add [shear] with a rate, or give time.step instead");
-    }
-    const auto fluid = top.table("fluid");
-    if (fluid && fluid->text("initial") == "shear" && !values.contains("shear")) {
-        refuse(name, "fluid.initial is \"shear\" without [shear]", "there is no shear rate",
-               "Add [shear] with a rate");
-    }
-    if (fluid && fluid->text("initial") == "inflow") {
-        const toml::node_view<const toml::node> side = values["boundary"]["x-"];
-        const std::string velocity =
-            side["velocity"].value_or(std::string(side["velocity"].is_array() ? "vector" : ""));
-        if (velocity.empty() || velocity == "zero-gradient" || velocity == "symmetry") {
-            refuse(name, "fluid.initial is \"inflow\"", "the side x- has no given velocity",
-                   "Give boundary.\"x-\" a velocity, or start at rest");
-        }
-    }
-    const std::vector<double> window = top.table("output")->numbers("window_strain");
-    if (!window.empty() && !(window[0] >= 0 && window[0] < window[1])) {
-        refuse(name, fmt::format("output.window_strain = [{}, {}]", window[0], window[1]),
-               "the window is empty", "Give the lower strain first, e.g. [10, 25]");
-    }
+    if (const auto faces = grid.table("faces"))
+        placed(name + ": grid.faces.unit", [&] { return conversion(faces->text("unit"), "um"); });
 }
 
 void check_membrane(const Section& membrane, const std::vector<Section>& cells, const std::string& name) {
@@ -274,7 +222,6 @@ void check_rules(const toml::table& resolved, const std::string& name) {
     need_tables(resolved, name);
     check_grid(resolved, name);
     check_boundary(resolved, name);
-    check_time(resolved, name);
     check_cells(resolved, name);
     check_observables(resolved, name);
     check_references(resolved, name);

@@ -7,7 +7,9 @@ Table rigid_body_table() {
     const Form length = quantity_in("um").above(0, "a length is positive");
     return {
         "body",
-        "One rigid body each, immersed in the fluid (chapter 5), on a box of cells. Kinds fluid and coupled.",
+        "One rigid body each, immersed in the fluid (chapter 5), in a box of cells or a mesh. Kinds fluid "
+        "and coupled; with [steady], in a box, it is held, and its forces are unknowns of the implicit "
+        "method.",
         {{"name", {text()}, "\"\"", "what files and observables of several bodies call it"},
          {"shape",
           {choice({"sphere", "spheroid", "cylinder"})},

@@ -15,8 +15,11 @@ Table boundary_table() {
                  "",
                  "velocity on the side: u = G y e_x, zero, copied from inside, mirrored, inflow of a plane "
                  "or square duct "
-                 "(5.22), functions of place and time, or a vector",
-                 true},
+                 "(5.22), functions of place and time, or a vector; needed but where the patch is periodic"},
+                {"periodic",
+                 {text()},
+                 "",
+                 "of a mesh: the patch opposite, equal to this one but for a translation"},
                 {"speed",
                  {quantity_in("um/s")},
                  "",

@@ -19,6 +19,15 @@ double box_volume(const meshing::RectilinearGrid& grid) {
 
 bool at_rest(const PatchInput& side) { return side.velocity == VelocityCondition::no_slip; }
 
+/// The flow in a mesh of kind pipe whose ends are glued.
+std::optional<fluid::DuctFlow> in_round_pipe(const Case& c, std::size_t axis, double drive) {
+    if (c.mesh->kind != "pipe" || axis != 0) return {};
+    const auto wall = c.patches.find("wall"), inlet = c.patches.find("inlet");
+    if (wall == c.patches.end() || inlet == c.patches.end()) return {};
+    if (!at_rest(wall->second) || !inlet->second.periodic()) return {};
+    return fluid::DuctFlow::round(axis, drive, c.mesh->size / 2);
+}
+
 }  // namespace
 
 ContactInput read_contact(const Section& in) {
@@ -35,7 +44,11 @@ std::optional<fluid::DuctFlow> undisturbed_flow(const Case& c) {
     std::size_t axis = 0, driven = 0;
     for (std::size_t q = 0; q < 3; ++q)
         if (a[q] != 0) axis = q, ++driven;
-    if (driven != 1 || !c.periodic(axis) || c.mesh || c.body_force.period > 0) return {};
+    if (driven != 1 || c.body_force.period > 0) return {};
+    const double nu = c.fluid.viscosity / c.fluid.density * um_per_m * um_per_m;  // um^2/s
+    const double drive = a[axis] * um_per_m / nu;
+    if (c.mesh) return in_round_pipe(c, axis, drive);
+    if (!c.periodic(axis)) return {};
     std::array<double, 3> lower{}, length{};
     std::array<bool, 3> periodic{};
     const meshing::RectilinearGrid grid = make_grid(c.grid);
@@ -49,13 +62,16 @@ std::optional<fluid::DuctFlow> undisturbed_flow(const Case& c) {
         ++walls;
     }
     if (walls == 0) return {};
-    const double nu = c.fluid.viscosity / c.fluid.density * um_per_m * um_per_m;  // um^2/s
-    return fluid::DuctFlow(axis, a[axis] * um_per_m / nu, lower, length, periodic);
+    return fluid::DuctFlow(axis, drive, lower, length, periodic);
+}
+
+double flow_reach(const Case& c, double sheared) {
+    const auto flow = undisturbed_flow(c);
+    return flow ? flow->largest_speed() / c.shear_rate.value_or(flow->wall_rate()) : sheared;
 }
 
 double flow_reach(const Case& c, const meshing::RectilinearGrid& grid) {
-    const auto flow = undisturbed_flow(c);
-    return flow ? flow->largest_speed() / c.shear_rate.value_or(flow->wall_rate()) : shear_reach(grid);
+    return flow_reach(c, shear_reach(grid));
 }
 
 std::size_t packed_cells(const Case& c) {
@@ -74,11 +90,13 @@ void complete_suspension(Case& c, bool initial_chosen) {
     if (c.kind == CaseKind::coupled && c.body_force.acceleration != Triple{} && !c.shear_rate) {
         const auto flow = undisturbed_flow(c);
         if (!flow)
-            throw InputError("[body_force] in a coupled case without [shear]",
-                             "the clock of the run is the wall shear rate of the undisturbed flow, which is "
-                             "known for a constant "
-                             "force along one periodic axis between sides with velocity = \"no-slip\"",
-                             "Give such a force and such sides, or [shear] with the rate to count strain by");
+            throw InputError(
+                "[body_force] in a coupled case without [shear]",
+                "the clock of the run is the wall shear rate of the undisturbed flow, which is "
+                "known for a constant "
+                "force along one periodic axis between sides with velocity = \"no-slip\", or along a "
+                "pipe of grid.mesh whose inlet and outlet are periodic",
+                "Give such a force and such sides, or [shear] with the rate to count strain by");
         c.shear_rate = flow->wall_rate();
         if (!initial_chosen) c.fluid.initial = InitialFlow::channel;
     }

@@ -46,7 +46,10 @@ const std::vector<std::string>& cell_columns() {
                                                 "area_error",
                                                 "volume_error",
                                                 "energy_aJ",
-                                                "deformation_index_pct"};
+                                                "deformation_index_pct",
+                                                "taylor_d_volume",
+                                                "taylor_d_extent",
+                                                "deformation_index_ellipse_pct"};
     return names;
 }
 
@@ -74,18 +77,25 @@ std::vector<double> CellObserver::observe(membrane::Batch& cells, double strain)
         const auto diameters = membrane::stretch_diameters(positions, m.centroid);
         if (c == 0) last_ = diameters;
         const double inclination = membrane::inclination(m), taylor = membrane::taylor_deformation(m);
-        const double index = 100 * membrane::minimum_rectangle(positions).deformation_index();
+        const double of_volume = membrane::taylor_deformation_volume(m),
+                     of_extent = membrane::taylor_deformation_extent(positions, m.centroid);
+        const double index = 100 * membrane::minimum_rectangle(positions).deformation_index(),
+                     ellipse = 100 * membrane::shadow_ellipse(positions).deformation_index();
         const double angle =
             membrane::tank_treading_angle(positions[static_cast<std::size_t>(marked_[c])], m.centroid);
         turned_[c] += std::remainder(angle - turned_[c], 2 * pi);
         const double area_error = m.area / area0_[c] - 1, volume_error = m.volume / volume0_[c] - 1;
-        row.insert(row.end(), {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees,
-                               taylor, diameters.axial, diameters.transverse, area_error, volume_error,
-                               cells.energies(c).total() * attojoule_per_unit, index});
+        row.insert(row.end(),
+                   {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees, taylor,
+                    diameters.axial, diameters.transverse, area_error, volume_error,
+                    cells.energies(c).total() * attojoule_per_unit, index, of_volume, of_extent, ellipse});
         inclination_.push_back(inclination);
         angle_.push_back(turned_[c]);
         taylor_.push_back(taylor);
+        taylor_volume_.push_back(of_volume);
+        taylor_extent_.push_back(of_extent);
         index_.push_back(index);
+        ellipse_.push_back(ellipse);
         const Vec3d start{start_[3 * c], start_[3 * c + 1], start_[3 * c + 2]};
         volume_error_ = std::max(volume_error_, std::abs(volume_error));
         area_error_ = std::max(area_error_, std::abs(area_error));
@@ -117,14 +127,17 @@ std::map<std::string, std::string> CellObserver::modes(double from, double to) c
 std::map<std::string, double> CellObserver::observables(double from, double to) const {
     std::map<std::string, double> sum;
     for (std::size_t c = 0; c < cells_; ++c) {
-        std::vector<double> x, inclination, angle, taylor, index;
+        std::vector<double> x, inclination, angle, taylor, taylor_volume, taylor_extent, index, ellipse;
         for (std::size_t i = 0; i < strain_.size(); ++i) {
             if (!(strain_[i] >= from - 1e-9 && strain_[i] <= to + 1e-9)) continue;
             x.push_back(strain_[i]);
             inclination.push_back(inclination_[i * cells_ + c]);
             angle.push_back(angle_[i * cells_ + c]);
             taylor.push_back(taylor_[i * cells_ + c]);
+            taylor_volume.push_back(taylor_volume_[i * cells_ + c]);
+            taylor_extent.push_back(taylor_extent_[i * cells_ + c]);
             index.push_back(index_[i * cells_ + c]);
+            ellipse.push_back(ellipse_[i * cells_ + c]);
         }
         std::map<std::string, double> one;
         one["inclination_deg"] = mean(inclination);
@@ -136,7 +149,10 @@ std::map<std::string, double> CellObserver::observables(double from, double to) 
         one["tank_treading_period_strain"] = m.tank_treading_period;
         one["swing_period_strain"] = m.swing_period;
         one["deformation_index_pct"] = mean(index);
+        one["deformation_index_ellipse_pct"] = mean(ellipse);
         one["taylor_d"] = mean(taylor);
+        one["taylor_d_volume"] = mean(taylor_volume);
+        one["taylor_d_extent"] = mean(taylor_extent);
         const double rate = std::abs(slope(x, angle));
         one["period_strain"] = 2 * pi / rate;
         one["tank_treading_cycles_per_strain"] = rate / (2 * pi);
@@ -156,7 +172,10 @@ void CellObserver::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("observer.inclination", inclination_);
     checkpoint.put("observer.angle", angle_);
     checkpoint.put("observer.taylor", taylor_);
+    checkpoint.put("observer.taylor_volume", taylor_volume_);
+    checkpoint.put("observer.taylor_extent", taylor_extent_);
     checkpoint.put("observer.index", index_);
+    checkpoint.put("observer.ellipse", ellipse_);
 }
 
 void CellObserver::load(const output::Checkpoint& checkpoint) {
@@ -171,7 +190,10 @@ void CellObserver::load(const output::Checkpoint& checkpoint) {
     inclination_ = checkpoint.array("observer.inclination", strain_.size() * cells_);
     angle_ = checkpoint.array("observer.angle", strain_.size() * cells_);
     taylor_ = checkpoint.array("observer.taylor", strain_.size() * cells_);
+    taylor_volume_ = checkpoint.array("observer.taylor_volume", strain_.size() * cells_);
+    taylor_extent_ = checkpoint.array("observer.taylor_extent", strain_.size() * cells_);
     index_ = checkpoint.array("observer.index", strain_.size() * cells_);
+    ellipse_ = checkpoint.array("observer.ellipse", strain_.size() * cells_);
 }
 
 }  // namespace hemoflux::apps

@@ -44,6 +44,10 @@ class CellObserver {
     [[nodiscard]] double area_error() const { return area_error_; }
     [[nodiscard]] double centroid_distance() const { return centroid_distance_; }
 
+    /// Volume (um^3) and area (um^2) of every cell at t = 0.
+    [[nodiscard]] const std::vector<double>& first_volumes() const { return volume0_; }
+    [[nodiscard]] const std::vector<double>& first_areas() const { return area0_; }
+
     /// Strain and inclination (degrees) of one cell over the run, for plots.
     [[nodiscard]] const std::vector<double>& strains() const { return strain_; }
     [[nodiscard]] std::vector<double> inclinations(std::size_t cell) const;
@@ -58,7 +62,9 @@ class CellObserver {
     std::vector<double> turned_;                            // unwrapped tank-treading angle, rad
     membrane::Diameters last_;
     double volume_error_ = 0, area_error_ = 0, centroid_distance_ = 0;
-    std::vector<double> strain_, inclination_, angle_, taylor_, index_;  // per record, cells side by side
+    // per record, cells side by side
+    std::vector<double> strain_, inclination_, angle_, taylor_, taylor_volume_, taylor_extent_, index_,
+        ellipse_;
 };
 
 }  // namespace hemoflux::apps

@@ -26,7 +26,17 @@ void check_supported(const Case& c) {
                          "Keep one [[cell]]");
 }
 
+const char* name_of(fluid::Scheme scheme) {
+    return scheme == fluid::Scheme::euler ? "euler" : scheme == fluid::Scheme::rk4 ? "rk4" : "factored";
+}
+
 }  // namespace
+
+fluid::Scheme coupled_scheme(const Case& c) {
+    // forces hold for a step, so an explicit step is Euler's, at a quarter of the cost of RK4
+    if (c.mesh && c.time.scheme == TimeScheme::factored) return fluid::Scheme::euler;
+    return scheme_of(c.time.scheme);
+}
 
 double clock_rate(const Case& c) {
     if (c.shear_rate) return *c.shear_rate;
@@ -36,7 +46,7 @@ double clock_rate(const Case& c) {
 
 double strain_of(const Case& c) { return c.time.strain ? *c.time.strain : *c.time.duration * clock_rate(c); }
 
-coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid) {
+coupling::Numerics numerics_of(const Case& c, double smallest, double sheared) {
     check_supported(c);
     const CellInput& cell = c.cells.front();
     coupling::PhysicalCase p;
@@ -49,38 +59,42 @@ coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& gr
     p.area_modulus = cell.area_modulus;
     p.local_area_modulus = cell.local_area_modulus;
     p.radius = rest_state(cell).radius();
-    p.wall_distance = c.shear_rate ? flow_reach(c, grid) : p.radius;
-    p.smallest_cell = grid.smallest();
+    p.wall_distance = c.shear_rate ? flow_reach(c, sheared) : p.radius;
+    p.smallest_cell = smallest;
     coupling::NumericsChoice choice;
     choice.lattice_viscosity = c.numerics.lattice_viscosity.value_or(0.5);
     choice.reynolds = c.numerics.reynolds.value_or(2);
     choice.mach = c.numerics.mach.value_or(0);
     choice.step_strain = c.time.step ? *c.time.step * p.shear_rate : c.numerics.step_strain.value_or(0);
     choice.kernel = kernel_of(c.coupling.kernel);
-    choice.scheme = scheme_of(c.time.scheme);
+    choice.scheme = coupled_scheme(c);
     return coupling::choose_numerics(p, choice);
 }
 
 std::string describe(const Case& c, const CoupledSystem& s) {
     const coupling::Numerics& n = s.numerics;
-    const auto& axes = s.fluid->grid().rectilinear().axes;
+    std::string grid = fmt::format("{} hexahedra", s.fluid->cells());
+    if (s.domain.box) {
+        const auto& axes = s.domain.box->axes;
+        grid = fmt::format("{} x {} x {} cells", axes[0].cells(), axes[1].cells(), axes[2].cells());
+    }
     std::string text = fmt::format(
         "{}\n"
-        "  grid          {} x {} x {} cells, smallest {:.4g} um\n"
+        "  grid          {}, smallest {:.4g} um\n"
         "  cells         {} of {} nodes, viscosity ratio {:.3g}\n"
         "  physical      {} = {:.4g} 1/s, Ca = G mu R0/K_S = {:.4g}, Re_G = {:.3g}\n"
-        "  chosen        nu/h = {:.3g}, Re_G = {:.3g}, Ma = {:.3g}, kernel and scheme as in the case\n"
+        "  chosen        nu/h = {:.3g}, Re_G = {:.3g}, Ma = {:.3g}, kernel as in the case, scheme {}\n"
         "  step          G dt = {:.4g} ({} steps of {:.4g} s; limit: {}{})\n"
         "  conversion    length 1 um; velocity c = {:.4g} um/s; lattice time = {:.4g} s; stress = {:.4g} "
         "Pa;\n"
         "                membrane force 1e-11 N = {:.4g} lattice units\n"
         "  errors        ",
-        c.title, axes[0].cells(), axes[1].cells(), axes[2].cells(), s.fluid->grid().rectilinear().smallest(),
-        s.cells->cells(), s.cells->vertices(), c.cells.front().cytosol_viscosity / c.fluid.viscosity,
+        c.title, grid, s.smallest(), s.cells->cells(), s.cells->vertices(),
+        c.cells.front().cytosol_viscosity / c.fluid.viscosity,
         c.shear_rate ? "G" : "no shear, clock G = K_S/(mu R0)", s.clock, n.capillary, n.physical_reynolds,
-        n.lattice_viscosity, n.reynolds, n.mach, n.step_strain, s.plan.steps, n.step_seconds, n.step_limit,
-        n.constraint_damping > 0 ? ", penalties damped" : "", n.velocity_um_per_s, s.scales.time_s(),
-        s.scales.pressure_pa, n.force_factor);
+        n.lattice_viscosity, n.reynolds, n.mach, name_of(coupled_scheme(c)), n.step_strain, s.plan.steps,
+        n.step_seconds, n.step_limit, n.constraint_damping > 0 ? ", penalties damped" : "",
+        n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa, n.force_factor);
     for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
     text += "(estimated)";
     if (s.bodies) text += s.bodies->describe();

@@ -7,18 +7,15 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/interrupt.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/suspension_observer.hpp"
+#include "apps/watchdog.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
 namespace {
-
-/// Steps between two looks for NaN and lost nodes.
-constexpr long long watch_interval = 25;
 
 std::vector<std::string> history_columns(std::size_t cells, const std::vector<std::string>& more) {
     std::vector<std::string> columns{"step", "time_s", "strain"};
@@ -56,7 +53,7 @@ class CoupledRun {
         system_.add_cells(case_, files_.restart());
         observer_.emplace(*system_.cells);
         if (SuspensionObserver::wanted(case_)) suspension_.emplace(case_, system_);
-        catch_interrupts();
+        prepare_stop(options_);
         files_.log().info(describe(case_, system_));
         if (files_.restart()) {
             system_.load(*files_.restart());
@@ -67,6 +64,7 @@ class CoupledRun {
         } else {
             first_density_ = system_.fluid->mean_density();
         }
+        watchdog_.emplace(case_.watchdog, observer_->first_volumes(), observer_->first_areas());
         done_ = files_.first_step();
         std::vector<std::string> columns = history_columns(
             system_.cells->cells(), suspension_ ? suspension_->columns() : std::vector<std::string>{});
@@ -93,17 +91,18 @@ class CoupledRun {
     int march() {
         output::Progress progress(system_.plan.at(done_), system_.plan.at(system_.plan.steps), "strain",
                                   options_.quiet);
-        const auto cells = static_cast<double>(system_.fluid->grid().view().layout.cells());
+        const auto cells = static_cast<double>(system_.fluid->cells());
         while (done_ < system_.plan.steps) {
             const bool last = done_ + 1 == system_.plan.steps;
             const bool write = last || due(system_.plan, done_ + 1, frame_interval());
-            const bool row = write || due(system_.plan, done_ + 1, case_.output.history_interval_strain);
+            const bool row = write || due(system_.plan, done_ + 1, row_interval());
             if (row && suspension_) suspension_->before_step();
             system_.loop->step(system_.numerics.step);
             ++done_;
-            const bool save = last || due(system_.plan, done_, case_.output.checkpoint_interval_strain);
-            const bool stop = interrupted();
-            if (row || save || stop || done_ % watch_interval == 0) system_.loop->check();
+            const bool save = last || due(system_.plan, done_, save_interval());
+            const bool stop =
+                stop_asked(options_, {done_, system_.plan.at(done_), system_.plan.at(system_.plan.steps)});
+            if (row || save || stop || done_ % case_.watchdog.interval == 0) check();
             if (row) record(system_.numerics.step);
             if (write) frame();
             if (row || save) remember();
@@ -146,6 +145,24 @@ class CoupledRun {
         return case_.output.interval ? *case_.output.interval * system_.clock : case_.output.interval_strain;
     }
 
+    /// Strain between two rows of the history, and between two checkpoints.
+    [[nodiscard]] double row_interval() const {
+        const OutputInput& out = case_.output;
+        return out.history_interval ? *out.history_interval * system_.clock : out.history_interval_strain;
+    }
+    [[nodiscard]] double save_interval() const {
+        const OutputInput& out = case_.output;
+        return out.checkpoint_interval ? *out.checkpoint_interval * system_.clock
+                                       : out.checkpoint_interval_strain;
+    }
+
+    /// Throws NumericalError when fluid or cells have gone wrong.
+    void check() const {
+        system_.loop->check();
+        check_density(case_.watchdog, *system_.fluid);
+        watchdog_->check(*system_.cells);
+    }
+
     /// step: length of the step that ends here, 0 at the start.
     void record(double step) {
         const double strain = system_.plan.at(done_);
@@ -165,8 +182,12 @@ class CoupledRun {
     }
 
     void frame() {
-        files_.write_frame(case_, system_.scales, *system_.fluid, system_.cells.get(), system_.bodies.get(),
-                           system_.plan.at(done_));
+        const double at = system_.plan.at(done_);
+        if (const fluid::Solver* box = system_.box_solver())
+            files_.write_frame(case_, system_.scales, *box, system_.cells.get(), system_.bodies.get(), at);
+        else
+            files_.write_flow(case_, system_.scales, *system_.mesh_solver(), *system_.domain.mesh,
+                              system_.cells.get(), system_.bodies.get(), system_.loop.get(), at);
     }
 
     /// Keeps the state in memory, as the last one known to be good.
@@ -225,17 +246,16 @@ class CoupledRun {
         s.performance.cpu_s = output::cpu_seconds();
         s.performance.steps = static_cast<double>(done_);
         s.performance.residuals_per_strain = evaluations() / strain;
-        s.performance.cell_residuals_per_s =
-            static_cast<double>(system_.fluid->evaluations()) *
-            static_cast<double>(system_.fluid->grid().view().layout.cells()) / wall_s_;
+        s.performance.cell_residuals_per_s = static_cast<double>(system_.fluid->evaluations()) *
+                                             static_cast<double>(system_.fluid->cells()) / wall_s_;
         if (!(here > 0)) s.performance.cell_residuals_per_s = NAN;
         s.performance.peak_rss_mib = output::peak_rss_mib();
         s.errors_estimated = system_.numerics.errors;
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         plot_inclination();
-        draw_pictures(case_, files_, "strain");
-        files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+        if (system_.domain.box) draw_pictures(case_, files_, "strain");
+        files_.log().info(closing_line(files_.folder().path()));
     }
 
     void plot_inclination() const {
@@ -259,6 +279,7 @@ class CoupledRun {
     RunFiles files_;
     std::optional<CellObserver> observer_;
     std::optional<SuspensionObserver> suspension_;
+    std::optional<Watchdog> watchdog_;
     long long done_ = 0, good_step_ = 0;
     std::size_t body_column_ = 0;
     output::Checkpoint good_;

@@ -6,6 +6,7 @@
 #include "apps/case.hpp"
 #include "apps/cell_observer.hpp"
 #include "apps/flow_setup.hpp"
+#include "apps/fluid_system.hpp"
 #include "apps/rigid_bodies.hpp"
 #include "apps/run.hpp"
 #include "apps/run_files.hpp"
@@ -29,18 +30,39 @@ class CoupledSystem {
     void save(output::Checkpoint& checkpoint) const;
     void load(const output::Checkpoint& checkpoint);
 
+    /// The fluid as the solver of a box, or of a mesh; null where it is the other.
+    [[nodiscard]] fluid::Solver* box_solver() const { return dynamic_cast<fluid::Solver*>(fluid.get()); }
+    [[nodiscard]] fluid::HexSolver* mesh_solver() const {
+        return dynamic_cast<fluid::HexSolver*>(fluid.get());
+    }
+    /// Smallest cell width; on a mesh the smallest cube root of a volume, um.
+    [[nodiscard]] double smallest() const { return smallest_; }
+
+    FluidDomain domain;
     double clock;  ///< clock_rate() of the case
     coupling::Numerics numerics;
     StepPlan plan;  ///< in strain
     Scales scales;
     std::unique_ptr<membrane::Batch> cells;
-    std::unique_ptr<fluid::Solver> fluid;
+    std::unique_ptr<fluid::Flow> fluid;
     std::unique_ptr<coupling::Loop> loop;
     std::unique_ptr<RigidBodies> bodies;  ///< null without [[body]]
+
+  private:
+    void make_flow(const Case& c, const std::optional<meshing::HexGrid>& grid);
+    /// Shortens the step to what is stable on a mesh, whose cells are of many shapes.
+    void limit_step();
+    [[nodiscard]] std::unique_ptr<coupling::Loop> make_loop(const Case& c, std::vector<double> pull);
+
+    double smallest_ = 0;
 };
 
-/// The numbers of a coupled case: capillary scaling and step. `cells` are those of the case.
-coupling::Numerics numerics_of(const Case& c, const meshing::RectilinearGrid& grid);
+/// The numbers of a coupled case: capillary scaling and step. smallest: width of the smallest fluid cell; sheared: where a
+/// shear flow about y = 0 is fastest; um.
+coupling::Numerics numerics_of(const Case& c, double smallest, double sheared);
+
+/// The scheme of a coupled case: the one it names, but on a mesh Euler's in place of the factored one.
+fluid::Scheme coupled_scheme(const Case& c);
 
 /// Strain units per second: the shear rate, or without shear K_S/(mu R0) of the first cell, the rate at which its
 /// membrane relaxes in the suspending fluid.

@@ -8,6 +8,8 @@
 #include "apps/cell_builder.hpp"
 #include "apps/cell_surface.hpp"
 #include "apps/coupled_run.hpp"
+#include "apps/mesh_case.hpp"
+#include "coupling/cell_grid.hpp"
 #include "coupling/overlap.hpp"
 #include "coupling/packing.hpp"
 #include "exchange/error.hpp"
@@ -94,18 +96,14 @@ void load_positions(membrane::Batch& cells, const output::Checkpoint& checkpoint
     cells.z().assign(checkpoint.array("membrane.z", nodes));
 }
 
-/// The relaxed cells must lie inside the box and must not overlap.
-void check_places(const Case& c, const meshing::RectilinearGrid& grid, const membrane::Batch& cells,
-                  coupling::Loop& loop) {
+/// The relaxed cells must lie inside the grid and must not overlap.
+void check_places(const membrane::Batch& cells, coupling::Loop& loop) {
     for (std::size_t i = 0; i < cells.cells(); ++i)
-        for (const Vec3d& r : cells.positions(i)) {
-            const double x[3] = {r.x, r.y, r.z};
-            for (std::size_t a = 0; a < 3; ++a)
-                if (!c.periodic(a) && (x[a] < grid.axes[a].lower() || x[a] > grid.axes[a].upper()))
-                    throw InputError(fmt::format("[[cell]] number {}", i),
-                                     "relaxed, it reaches through a side of the box that is not periodic",
-                                     "Move it inside or enlarge the box");
-        }
+        for (const Vec3d& r : cells.positions(i))
+            if (!loop.grid().contains(r))
+                throw InputError(fmt::format("[[cell]] number {}", i),
+                                 "relaxed, it reaches through a side of the grid that is not periodic",
+                                 "Move it inside or enlarge the grid");
     const coupling::Gap gap = loop.cells()->smallest_gap();
     if (gap.distance < 0)
         throw InputError(fmt::format("[[cell]] numbers {} and {}", std::min(gap.cell, gap.other),
@@ -132,8 +130,8 @@ double surface_viscosity_in_fluid(const Case& c, const coupling::Numerics& n) {
     return n.nu * c.cells.front().membrane_viscosity / (c.fluid.viscosity * metre_per_um);
 }
 
-std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::RectilinearGrid& grid,
-                                          const coupling::Numerics& n, const Scales& scales) {
+fluid::SolverOptions solver_options(const Case& c, double smallest, const coupling::Numerics& n,
+                                    const Scales& scales) {
     fluid::SolverOptions o;
     o.nu = n.nu;
     o.largest_nu = n.largest_nu;
@@ -143,16 +141,21 @@ std::unique_ptr<fluid::Solver> make_fluid(const Case& c, const meshing::Rectilin
         surface_nu > 0 || std::any_of(c.cells.begin(), c.cells.end(), [&](const CellInput& cell) {
             return cell.cytosol_viscosity != c.fluid.viscosity;
         });
-    o.largest_nu += surface_nu / (c.coupling.smoothing * grid.smallest());
+    o.largest_nu += surface_nu / (c.coupling.smoothing * smallest);
     for (const CellInput& cell : c.cells)
         o.smallest_nu = std::min(o.smallest_nu > 0 ? o.smallest_nu : n.nu,
                                  n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
     set_body_force(c, scales, o);
     o.tau_floor = c.numerics.tau_floor;
-    o.scheme = scheme_of(c.time.scheme);
-    auto solver = std::make_unique<fluid::Solver>(grid, make_patches(c, scales, n.rate), o);
-    solver->initialise(initial_flow(c, n.rate, scales));
-    return solver;
+    o.scheme = coupled_scheme(c);
+    o.gradient = gradient_of(c.numerics.gradient);
+    return o;
+}
+
+/// Smallest width of a cell; on a mesh the smallest cube root of a volume.
+double smallest_of(const FluidDomain& domain, const std::optional<meshing::HexGrid>& grid) {
+    return domain.box ? domain.box->smallest()
+                      : std::cbrt(*std::min_element(grid->volume.begin(), grid->volume.end()));
 }
 
 /// Force along x on every node of the batch, 1e-11 N, of [tweezers]: those of a checkpoint, or by the shape as it is.
@@ -168,8 +171,59 @@ std::vector<double> pull_of(const Case& c, const membrane::Batch& cells,
     return pull;
 }
 
-std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numerics& n, fluid::Solver& fluid,
-                                          membrane::Batch& cells, std::vector<double> pull) {
+}  // namespace
+
+void CoupledSystem::make_flow(const Case& c, const std::optional<meshing::HexGrid>& grid) {
+    const fluid::SolverOptions o = solver_options(c, smallest_, numerics, scales);
+    if (!grid) {
+        auto solver = std::make_unique<fluid::Solver>(*domain.box, make_patches(c, scales, numerics.rate), o);
+        static_cast<void>(
+            coupling::CellGrid(*domain.box, solver->grid().periodic()));  // refuses too few cells
+        fluid = std::move(solver);
+    } else {
+        fluid = std::make_unique<fluid::HexSolver>(*grid, make_hex_patches(c, scales, numerics.rate, 1), o);
+    }
+    fluid->initialise(initial_flow(c, numerics.rate, scales));
+}
+
+CoupledSystem::CoupledSystem(const Case& c) : domain(c), clock(clock_rate(c)), plan(1, 1) {
+    std::optional<meshing::HexGrid> grid;
+    if (domain.mesh) grid = make_hex_grid(c, *domain.mesh);
+    smallest_ = smallest_of(domain, grid);
+    numerics =
+        numerics_of(c, smallest_, std::max(std::abs(domain.bounds.lower.y), std::abs(domain.bounds.upper.y)));
+    scales = {numerics.velocity_um_per_s, c.fluid.viscosity * clock / (numerics.nu * numerics.rate),
+              c.fluid.viscosity / numerics.nu, c.fluid.density};
+    check_same_kind(c.cells);
+    const double mach = std::sqrt(3.0) * fastest_side(c) / scales.velocity_um_per_s;
+    if (!(mach < 0.3))
+        throw InputError(fmt::format("a side moves at Mach {:.3g}", mach),
+                         "the equilibrium is an expansion for small Mach numbers, useful up to 0.3",
+                         "Lower its velocity, numerics.reynolds or numerics.lattice_viscosity");
+    const auto window = c.output.window_strain;
+    if (window && !((*window)[0] < strain_of(c)))
+        throw InputError(
+            fmt::format("output.window_strain = [{}, {}]", (*window)[0], (*window)[1]),
+            fmt::format("the run ends at strain {:.4g}, so no observable would be taken", strain_of(c)),
+            "Let the window begin earlier, or run longer");
+    make_flow(c, grid);
+    if (grid && numerics.step_limit != "given") limit_step();
+    plan = StepPlan(strain_of(c), numerics.step_strain);
+    numerics.step_strain = plan.step;
+    numerics.step = plan.step / numerics.rate;
+    numerics.step_seconds = plan.step / clock;
+}
+
+void CoupledSystem::limit_step() {
+    constexpr double share = 0.9;
+    const double stable = share * numerics.rate * mesh_solver()->largest_step(numerics.mach / std::sqrt(3.0));
+    if (stable >= numerics.step_strain) return;
+    numerics.step_strain = stable;
+    numerics.step_limit = "smallest hexahedra";
+}
+
+std::unique_ptr<coupling::Loop> CoupledSystem::make_loop(const Case& c, std::vector<double> pull) {
+    const coupling::Numerics& n = numerics;
     coupling::LoopOptions o;
     o.pull = std::move(pull);
     o.surface_nu = surface_viscosity_in_fluid(c, n);
@@ -185,41 +239,13 @@ std::unique_ptr<coupling::Loop> make_loop(const Case& c, const coupling::Numeric
     o.constraint_damping = n.constraint_damping;
     o.recentre = c.coupling.recentre;
     o.smoothing.local_cells = c.coupling.smoothing;
-    if (c.contact) o.contact = contact_options(c, cells, fluid.grid().rectilinear().smallest());
-    if (fluid.options().with_viscosity)
+    if (c.contact) o.contact = contact_options(c, *cells, smallest());
+    const auto& options = box_solver() ? box_solver()->options() : mesh_solver()->options();
+    if (options.with_viscosity)
         for (const CellInput& cell : c.cells)
             o.nu_inside.push_back(n.nu * cell.cytosol_viscosity / c.fluid.viscosity);
-    return std::make_unique<coupling::Loop>(fluid, cells, o);
-}
-
-constexpr const char* fluid_names[4] = {"fluid.density", "fluid.u", "fluid.v", "fluid.w"};
-
-}  // namespace
-
-CoupledSystem::CoupledSystem(const Case& c)
-    : clock(clock_rate(c)),
-      numerics(numerics_of(c, make_grid(c.grid))),
-      plan(strain_of(c), numerics.step_strain) {
-    const meshing::RectilinearGrid grid = make_grid(c.grid);
-    numerics.step_strain = plan.step;
-    numerics.step = plan.step / numerics.rate;
-    numerics.step_seconds = plan.step / clock;
-    scales = {numerics.velocity_um_per_s, c.fluid.viscosity * clock / (numerics.nu * numerics.rate),
-              c.fluid.viscosity / numerics.nu, c.fluid.density};
-    check_same_kind(c.cells);
-    const double mach = std::sqrt(3.0) * fastest_side(c) / scales.velocity_um_per_s;
-    if (!(mach < 0.3))
-        throw InputError(fmt::format("a side moves at Mach {:.3g}", mach),
-                         "the equilibrium is an expansion for small Mach numbers, useful up to 0.3",
-                         "Lower its velocity, numerics.reynolds or numerics.lattice_viscosity");
-    const auto window = c.output.window_strain;
-    if (window && !((*window)[0] < strain_of(c)))
-        throw InputError(
-            fmt::format("output.window_strain = [{}, {}]", (*window)[0], (*window)[1]),
-            fmt::format("the run ends at strain {:.4g}, so no observable would be taken", strain_of(c)),
-            "Let the window begin earlier, or run longer");
-    fluid = make_fluid(c, grid, numerics, scales);
-    static_cast<void>(coupling::CellGrid(grid, fluid->grid().periodic()));  // refuses too few cells
+    return box_solver() ? std::make_unique<coupling::Loop>(*box_solver(), *cells, o)
+                        : std::make_unique<coupling::Loop>(*mesh_solver(), *cells, o);
 }
 
 void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoint) {
@@ -229,15 +255,16 @@ void CoupledSystem::add_cells(const Case& c, const output::Checkpoint* checkpoin
     } else {
         cells = make_cells(c);
     }
-    loop = make_loop(c, numerics, *fluid, *cells, pull_of(c, *cells, checkpoint));
-    if (!checkpoint) check_places(c, fluid->grid().rectilinear(), *cells, *loop);
+    loop = make_loop(c, pull_of(c, *cells, checkpoint));
+    if (!checkpoint) check_places(*cells, *loop);
     if (!c.bodies.empty())
-        bodies = std::make_unique<RigidBodies>(c, scales, fluid->grid().rectilinear(), *loop);
+        bodies = std::make_unique<RigidBodies>(
+            c, scales, *loop, box_solver() ? box_solver()->options() : mesh_solver()->options());
 }
 
 void CoupledSystem::save(output::Checkpoint& checkpoint) const {
-    for (int q = 0; q < 4; ++q)
-        checkpoint.put(fluid_names[q], fluid->state().interior(fluid->state().view().q[q]));
+    save_flow(*fluid, checkpoint);
+    checkpoint.put_number("fluid.time", fluid->time());
     checkpoint.put("membrane.x", cells->x().to_host());
     checkpoint.put("membrane.y", cells->y().to_host());
     checkpoint.put("membrane.z", cells->z().to_host());
@@ -258,14 +285,17 @@ void CoupledSystem::save(output::Checkpoint& checkpoint) const {
 }
 
 void CoupledSystem::load(const output::Checkpoint& checkpoint) {
-    const std::size_t grid_cells = fluid->grid().view().layout.cells();
-    for (int q = 0; q < 4; ++q)
-        fluid->state().set_interior(fluid->state().view().q[q], checkpoint.array(fluid_names[q], grid_cells));
+    load_flow(*fluid, checkpoint);
+    fluid->set_time(checkpoint.number("fluid.time"));
     load_positions(*cells, checkpoint);
     if (bodies) bodies->load(checkpoint);
     coupling::CellMemory memory;
-    memory.viscosity_nodes = {checkpoint.array("loop.viscosity_x"), checkpoint.array("loop.viscosity_y"),
-                              checkpoint.array("loop.viscosity_z")};
+    const auto nodes_or_none = [&](const char* name) {
+        return checkpoint.array(name).empty() ? std::vector<double>()
+                                              : checkpoint.array(name, cells->x().size());
+    };
+    memory.viscosity_nodes = {nodes_or_none("loop.viscosity_x"), nodes_or_none("loop.viscosity_y"),
+                              nodes_or_none("loop.viscosity_z")};
     const auto& target = checkpoint.array("loop.target", 3);
     std::copy(target.begin(), target.end(), memory.target.begin());
     memory.viscous = {checkpoint.array("loop.viscous_tension"), checkpoint.array("loop.viscous_length")};

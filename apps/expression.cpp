@@ -19,6 +19,13 @@ struct Formula {
 }  // namespace
 
 std::function<double(const Vec3d&, double)> expression(const std::string& text, const std::string& where) {
+    for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i + 1)) {
+        const bool compares = (i > 0 && std::string("=<>!").find(text[i - 1]) != std::string::npos) ||
+                              (i + 1 < text.size() && text[i + 1] == '=');
+        if (!compares)
+            throw InputError(fmt::format("{} = \"{}\"", where, text), "it assigns a value to a variable",
+                             "Write a formula of x, y, z in m and t in s; == compares");
+    }
     const auto formula = std::make_shared<Formula>();
     try {
         formula->parser.DefineVar("x", &formula->x);

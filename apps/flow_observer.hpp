@@ -20,6 +20,7 @@ struct FlowBox {
     Vec3d lower, upper;
 };
 
+/// Takes the observables of a flow at its end and writes and draws its profiles.
 class FlowObserver {
   public:
     /// Reads the reference profiles. gamma: of the solver, p = gamma rho / 3. InputError when they cannot be compared with, when a patch is not there or there

@@ -127,7 +127,14 @@ double fastest_expression(const Case& c, const PatchInput& in, const meshing::Re
                 x[axis] = side == 0 ? grid.axes[axis].lower() : grid.axes[axis].upper();
                 x[(axis + 1) % 3] = place((axis + 1) % 3, i);
                 x[(axis + 2) % 3] = place((axis + 2) % 3, j);
-                speed = std::max(speed, norm(p.velocity_at({x[0], x[1], x[2]}, end * k / samples)));
+                const double here = norm(p.velocity_at({x[0], x[1], x[2]}, end * k / samples));
+                if (!std::isfinite(here))
+                    throw InputError(
+                        fmt::format("boundary.{}{}.velocity_expression", "xyz"[axis], "-+"[side]),
+                        fmt::format("it is not a finite number at ({:.4g}, {:.4g}, {:.4g}) um, {:.4g} s",
+                                    x[0], x[1], x[2], end * k / samples),
+                        "Write a formula that has a value everywhere on the side");
+                speed = std::max(speed, here);
             }
     return speed;
 }

@@ -8,19 +8,18 @@
 
 #include "apps/flow_observer.hpp"
 #include "apps/fluid_system.hpp"
-#include "apps/interrupt.hpp"
 #include "apps/output/convergence_plot.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/run_files.hpp"
 #include "apps/steady_run.hpp"
+#include "apps/watchdog.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::apps {
 namespace {
-
-constexpr long long watch_interval = 25;
 
 class FluidRun {
   public:
@@ -49,7 +48,7 @@ class FluidRun {
     }
 
     void begin() {
-        catch_interrupts();
+        prepare_stop(options_);
         files_.log().info(fmt::format("{}\n  step          {} steps of {:.4g} s", describe(case_, system_),
                                       system_.plan.steps, system_.plan.step));
         if (files_.restart()) {
@@ -88,10 +87,11 @@ class FluidRun {
                                   options_.quiet);
         const auto cells = static_cast<double>(system_.flow->cells());
         const double frames = interval(case_.output.interval_strain);
-        const double rows =
-            case_.shear_rate ? case_.output.history_interval_strain / *case_.shear_rate : frames / 10;
-        const double saves =
-            case_.shear_rate ? case_.output.checkpoint_interval_strain / *case_.shear_rate : frames;
+        const OutputInput& out = case_.output;
+        const double rows = out.history_interval.value_or(
+            case_.shear_rate ? out.history_interval_strain / *case_.shear_rate : frames / 10);
+        const double saves = out.checkpoint_interval.value_or(
+            case_.shear_rate ? out.checkpoint_interval_strain / *case_.shear_rate : frames);
         output::Checkpoint good = checkpoint();
         long long good_step = done_;
         while (done_ < system_.plan.steps) {
@@ -101,8 +101,10 @@ class FluidRun {
             observe();
             const bool last = done_ == system_.plan.steps || settled(),
                        frame = last || due(system_.plan, done_, frames);
-            const bool row = frame || due(system_.plan, done_, rows), stop = interrupted();
-            if (row || stop || done_ % watch_interval == 0) check(good, good_step);
+            const bool row = frame || due(system_.plan, done_, rows),
+                       stop = stop_asked(
+                           options_, {done_, system_.plan.at(done_), system_.plan.at(system_.plan.steps)});
+            if (row || stop || done_ % case_.watchdog.interval == 0) check(good, good_step);
             if (row) record();
             if (frame) {
                 write_frame(files_, case_, system_, system_.plan.at(done_));
@@ -138,16 +140,23 @@ class FluidRun {
     }
 
     void check(const output::Checkpoint& good, long long good_step) {
-        const std::size_t bad = system_.flow->first_bad_cell();
-        if (bad == system_.flow->cells()) return;
-        files_.write_checkpoint(good, good_step);
-        const Vec3d at = system_.flow->centre(bad);
-        throw NumericalError(
-            fmt::format("fluid cell {} at ({:.3f}, {:.3f}, {:.3f}) um", bad, at.x, at.y, at.z),
-            fmt::format("its density or velocity is no longer a sound number at {:.4g} s; the last "
-                        "good state (step {}) is kept",
-                        system_.plan.at(done_), good_step),
-            "Shorten time.step or lower numerics.mach");
+        try {
+            const std::size_t bad = system_.flow->first_bad_cell();
+            if (bad < system_.flow->cells())
+                throw NumericalError(
+                    fluid::describe_cell(*system_.flow, bad),
+                    fmt::format("its density or velocity is no longer a sound number at {:.4g} s",
+                                system_.plan.at(done_)),
+                    "Shorten time.step or lower numerics.mach");
+            check_density(case_.watchdog, *system_.flow);
+            if (system_.loop) system_.loop->check();
+        } catch (const NumericalError&) {
+            files_.write_checkpoint(good, good_step);
+            files_.log().warn(
+                fmt::format("the last good state (step {}) is kept in {}", good_step,
+                            output::checkpoint_file(files_.folder().path(), good_step).string()));
+            throw;
+        }
     }
 
     void record() {
@@ -204,8 +213,7 @@ class FluidRun {
         }
         if (system_.errors) compare(s);
         if (system_.bodies)
-            s.observables.merge(system_.bodies->observables(dynamic_cast<fluid::Solver&>(*system_.flow),
-                                                            files_.rows(), body_column_));
+            s.observables.merge(system_.bodies->observables(*system_.flow, files_.rows(), body_column_));
         if (case_.shear_rate) {
             const double strain = system_.plan.at(done_) * *case_.shear_rate;
             s.conservation.mean_density_per_strain = (system_.flow->mean_density() - first_density_) / strain;
@@ -221,7 +229,7 @@ class FluidRun {
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         draw();
-        files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+        files_.log().info(closing_line(files_.folder().path()));
     }
 
     void draw() {

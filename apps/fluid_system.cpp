@@ -115,9 +115,12 @@ FluidSystem::FluidSystem(const Case& c)
       plan(make_plan(c, *this)) {
     flow->initialise(initial_flow(c, c.shear_rate.value_or(0) / scales.velocity_um_per_s, scales));
     if (!c.bodies.empty()) {
-        loop = std::make_unique<coupling::Loop>(dynamic_cast<fluid::Solver&>(*flow),
-                                                kernel_of(c.coupling.kernel));
-        bodies = std::make_unique<RigidBodies>(c, scales, *domain.box, *loop);
+        const coupling::Kernel kernel = kernel_of(c.coupling.kernel);
+        if (domain.box)
+            loop = std::make_unique<coupling::Loop>(dynamic_cast<fluid::Solver&>(*flow), kernel);
+        else
+            loop = std::make_unique<coupling::Loop>(dynamic_cast<fluid::HexSolver&>(*flow), kernel);
+        bodies = std::make_unique<RigidBodies>(c, scales, *loop, options());
     }
     if (!c.analytical) return;
     errors.emplace(c, *domain.box, scales, plan);
@@ -148,8 +151,11 @@ std::unique_ptr<fluid::Flow> FluidSystem::make_flow(const Case& c) {
     set_body_force(c, scales, o);
     o.with_force = o.with_force || !c.bodies.empty();
     o.tau_floor = c.numerics.tau_floor;
-    o.scheme = c.steady || (c.mesh && c.time.scheme == TimeScheme::factored) ? fluid::Scheme::rk4
-                                                                             : scheme_of(c.time.scheme);
+    // a body's forces hold for a step, so its explicit steps are Euler's, at a quarter of the cost
+    const fluid::Scheme explicit_scheme = c.bodies.empty() ? fluid::Scheme::rk4 : fluid::Scheme::euler;
+    o.scheme = c.steady                                          ? fluid::Scheme::rk4
+               : c.mesh && c.time.scheme == TimeScheme::factored ? explicit_scheme
+                                                                 : scheme_of(c.time.scheme);
     o.single_precision = c.numerics.single_precision;
     o.gradient = gradient_of(c.numerics.gradient);
     if (domain.box) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -11,6 +12,7 @@
 #include "apps/commands.hpp"
 #include "apps/output/gallery.hpp"
 #include "apps/output/pictures.hpp"
+#include "apps/report/command.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
@@ -54,7 +56,8 @@ int run_program(int argc, char** argv) {
         "membrane.",
         "hemoflux");
     program.footer(
-        "Example: hemoflux run apps/cases/tank_treading_quick.toml --output results/quick\n"
+        "Examples: hemoflux run apps/cases/tank_treading_quick.toml --output results/quick\n"
+        "          hemoflux report results/quick\n"
         "Exit codes: 0 done, 2 bad input, 3 numerical failure, 4 unreadable or unwritable files, 130 "
         "interrupted");
     program.set_version_flag(
@@ -67,6 +70,7 @@ int run_program(int argc, char** argv) {
     hemoflux::apps::add_membrane_command(program, code);
     hemoflux::apps::add_bench_command(program);
     hemoflux::apps::add_schema_command(program);
+    hemoflux::report::add_report_command(program);
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -80,6 +84,8 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ,
+                SIG_IGN);  // a limit on the size of files is then an error of write(), with its message
     hemoflux::exchange::limit_spinning(argv);
     try {
         if (argc > 1 &&

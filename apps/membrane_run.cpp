@@ -76,6 +76,8 @@ void MembraneRun::describe(const membrane::Batch& batch, const std::string& pref
         put(("gyration_" + std::to_string(i + 1) + "_um").c_str(), std::sqrt(moments.moments[i]));
     put("deformation_index", membrane::minimum_rectangle(positions).deformation_index());
     put("taylor_d", membrane::taylor_deformation(moments));
+    put("taylor_d_volume", membrane::taylor_deformation_volume(moments));
+    put("taylor_d_extent", membrane::taylor_deformation_extent(positions, moments.centroid));
     put("area_offset", moments.area / batch.reference().area - 1);
     put("volume_offset", moments.volume / batch.reference().volume - 1);
     put("energy_aJ", energy.total() * attojoule_per_unit);
@@ -138,8 +140,9 @@ int run_membrane(const Case& c, const RunOptions& options) {
         exchange::set_threads(options.threads);
     }
     const output::OutputFolder folder(options.output, output::Folder::fresh);
-    const output::Log log(folder.log(), options.quiet);
     output::write_file(folder.resolved(), c.resolved);
+    const output::Log log(folder.log(), options.quiet);
+    note_environment(log);
     output::Summary summary = start_summary(c);
     MembraneRun run{c,
                     folder,
@@ -157,6 +160,7 @@ int run_membrane(const Case& c, const RunOptions& options) {
         summary.performance.peak_rss_mib = output::peak_rss_mib();
         output::write_summary(folder.summary(), summary);
         log.info(output::to_table(summary));
+        log.info(closing_line(folder.path()));
         return static_cast<int>(Exit::done);
     });
 }

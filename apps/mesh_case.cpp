@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/prefix.hpp"
 #include "meshing/hex_cavity.hpp"
 #include "meshing/hex_cylinder.hpp"
 #include "meshing/hex_io.hpp"
@@ -52,7 +53,8 @@ meshing::HexGrid make_hex_grid(const Case& c, const meshing::HexMesh& mesh) {
     for (const auto& [name, patch] : c.patches)
         if (patch.periodic() && !(c.patches.contains(patch.partner) && patch.partner < name))
             pairs.push_back({name, patch.partner});
-    return meshing::make_hex_grid(mesh, pairs);
+    return placed(c.mesh->file.empty() ? "grid.mesh" : "mesh file " + c.mesh->file,
+                  [&] { return meshing::make_hex_grid(mesh, pairs); });
 }
 
 }  // namespace hemoflux::apps

@@ -98,7 +98,8 @@ void Checker::check_range(const Form& form, double value, const toml::node& node
     if (!inside) {
         const std::string unit = form.unit.empty() ? "" : " " + form.unit;
         refuse(node, fmt::format("out of range, {}", form.because.empty() ? "no such value" : form.because),
-               fmt::format("Choose a value {}{}", form.range(), unit));
+               form.range().empty() ? "Give a finite number"
+                                    : fmt::format("Choose a value {}{}", form.range(), unit));
     }
 }
 

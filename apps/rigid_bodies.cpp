@@ -67,15 +67,15 @@ constexpr std::size_t columns_per_body = std::size(motion_columns), axis_column 
 
 }  // namespace
 
-RigidBodies::RigidBodies(const Case& c, const Scales& scales, const meshing::RectilinearGrid& grid,
-                         coupling::Loop& loop)
-    : case_(c), scales_(scales) {
+RigidBodies::RigidBodies(const Case& c, const Scales& scales, coupling::Loop& loop,
+                         const fluid::SolverOptions& fluid)
+    : case_(c), scales_(scales), grid_(loop.grid()), fluid_(fluid) {
     for (std::size_t i = 0; i < c.bodies.size(); ++i) {
         const RigidInput& in = c.bodies[i];
-        const double h = cells_around(in, grid);
+        const double h = cells_around(in, grid_);
         coupling::BodySurface surface = make_surface(in, h);
-        check_inside(c, i, surface, grid);
-        coupling::retract(surface, loop.grid().view(), vec(in.position), retraction(in, c.coupling.kernel));
+        check_inside(c, i, surface, grid_);
+        coupling::retract(surface, grid_, vec(in.position), retraction(in, c.coupling.kernel));
         coupling::BodyOptions o;
         o.name = name_of(in, i);
         o.forcing = in.method == RigidMethod::direct ? coupling::BodyForcing::direct
@@ -90,7 +90,7 @@ RigidBodies::RigidBodies(const Case& c, const Scales& scales, const meshing::Rec
         start.centre = vec(in.position);
         start.velocity = (1 / scales.velocity_um_per_s) * vec(in.velocity);
         start.angular_velocity = scales.time_s() * vec(in.angular_velocity);
-        bodies_.push_back(std::make_unique<coupling::RigidBody>(std::move(surface), loop.grid(), o, start));
+        bodies_.push_back(std::make_unique<coupling::RigidBody>(std::move(surface), grid_, o, start));
         cell_.push_back(h);
         loop.add(*bodies_.back());
     }
@@ -137,7 +137,7 @@ std::vector<double> RigidBodies::row() const {
     return values;
 }
 
-std::map<std::string, double> RigidBodies::observables(fluid::Solver& fluid,
+std::map<std::string, double> RigidBodies::observables(fluid::Flow& fluid,
                                                        const std::vector<std::vector<double>>& rows,
                                                        std::size_t first) const {
     std::map<std::string, double> all;
@@ -164,7 +164,7 @@ std::map<std::string, double> RigidBodies::observables(fluid::Solver& fluid,
         }
         put("no_slip_error", body.slip() / speed);
         put("pressure_difference_pa",
-            pressure_difference(body, vec(in.drag_direction), fluid, *probe) * scales_.pressure_pa);
+            pressure_difference(body, vec(in.drag_direction), grid_, fluid_, *probe) * scales_.pressure_pa);
         if (std::hypot(axis(i).x, axis(i).y) < smallest_projection) continue;
         std::vector<double> time, angle;
         for (const auto& r : rows) {
@@ -196,6 +196,12 @@ RigidBodies::Frame RigidBodies::frame() const {
             frame.forces_pn.push_back((newton() * piconewton * body->surface().areas[j]) * t[j]);
     }
     return frame;
+}
+
+std::vector<coupling::RigidBody*> RigidBodies::all() const {
+    std::vector<coupling::RigidBody*> pointers;
+    for (const auto& body : bodies_) pointers.push_back(body.get());
+    return pointers;
 }
 
 void RigidBodies::save(output::Checkpoint& checkpoint) const {

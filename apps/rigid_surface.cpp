@@ -18,14 +18,6 @@ namespace {
 /// Nodes per square of a cell below which the Lagrange kernel lets the flow through.
 constexpr double fewest_nodes = 1.4;
 
-double component(const Vec3d& v, std::size_t d) { return d == 0 ? v.x : d == 1 ? v.y : v.z; }
-
-/// Width of the cell of an axis that holds x, or of the nearest one.
-double width_at(const meshing::Axis& axis, double x) {
-    const auto after = std::upper_bound(axis.faces.begin() + 1, axis.faces.end() - 1, x);
-    return *after - *(after - 1);
-}
-
 /// Extent of a body from its centre, um, at most.
 double reach(const RigidInput& b) {
     if (!b.file.empty()) return 0;
@@ -56,15 +48,14 @@ coupling::BodySurface cylinder(const RigidInput& b, double h) {
 
 }  // namespace
 
-double cells_around(const RigidInput& b, const meshing::RectilinearGrid& grid) {
+double cells_around(const RigidInput& b, const coupling::FluidGrid& grid) {
     double volume = 1e300;
     const double r = reach(b);
     for (const double sx : {-1.0, 0.0, 1.0})
         for (const double sy : {-1.0, 0.0, 1.0})
             for (const double sz : {-1.0, 0.0, 1.0})
-                volume = std::min(volume, width_at(grid.axes[0], b.position[0] + sx * r) *
-                                              width_at(grid.axes[1], b.position[1] + sy * r) *
-                                              width_at(grid.axes[2], b.position[2] + sz * r));
+                volume = std::min(volume, grid.cell_volume({b.position[0] + sx * r, b.position[1] + sy * r,
+                                                            b.position[2] + sz * r}));
     return std::cbrt(volume);
 }
 
@@ -91,20 +82,15 @@ double retraction(const RigidInput& b, Kernel kernel) {
 }
 
 void check_inside(const Case& c, std::size_t index, const coupling::BodySurface& surface,
-                  const meshing::RectilinearGrid& grid) {
-    for (std::size_t d = 0; d < 3; ++d) {
-        const meshing::Axis& axis = grid.axes[d];
-        if (c.periodic(d)) continue;
-        for (const Vec3d& x : surface.mesh.vertices) {
-            const double at = c.bodies[index].position[d] + component(x, d);
-            if (at >= axis.lower() && at <= axis.upper()) continue;
-            throw InputError(
-                fmt::format("body.{} reaches through the side \"{}{}\"", index, "xyz"[d],
-                            at > axis.upper() ? '+' : '-'),
-                fmt::format("a node has {} = {:.4g} um, the box reaches from {:.4g} to {:.4g} um", "xyz"[d],
-                            at, axis.lower(), axis.upper()),
-                "Move the body, enlarge the box, or make this axis periodic");
-        }
+                  const coupling::FluidGrid& grid) {
+    const Triple& centre = c.bodies[index].position;
+    for (const Vec3d& x : surface.mesh.vertices) {
+        const Vec3d at = Vec3d{centre[0], centre[1], centre[2]} + x;
+        if (grid.contains(at)) continue;
+        throw InputError(
+            fmt::format("body.{} reaches through the border of the grid", index),
+            fmt::format("a node at ({:.4g}, {:.4g}, {:.4g}) um is outside of it", at.x, at.y, at.z),
+            "Move the body, enlarge the grid, or make this direction periodic");
     }
 }
 
@@ -116,32 +102,36 @@ double reference_area(const RigidInput& b, const coupling::BodySurface& surface)
     return std::numbers::pi / 4 * b.diameter * b.diameter;
 }
 
-double fluid_speed(const RigidInput& b, const coupling::BodyState& state, fluid::Solver& fluid) {
+double fluid_speed(const RigidInput& b, const coupling::BodyState& state, fluid::Flow& fluid) {
     return std::max(fluid.largest_speed(), norm(state.velocity) + reach(b) * norm(state.angular_velocity));
 }
 
 double pressure_difference(const coupling::RigidBody& body, const Vec3d& direction,
-                           const fluid::Solver& fluid, const fluid::Probe& probe) {
-    const Vec3d centre = body.state().centre;
-    const coupling::Matrix3 turn = coupling::rotation(body.state().orientation);
+                           const coupling::FluidGrid& grid, const fluid::SolverOptions& fluid,
+                           const fluid::Probe& probe) {
+    const coupling::BodyState& state = body.state();
+    const coupling::Matrix3 turn = coupling::rotation(state.orientation);
     double end = 0;
     for (const Vec3d& x : body.surface().mesh.vertices) end = std::max(end, dot(turn * x, direction));
-    const auto& axes = fluid.grid().rectilinear().axes;
-    const double gamma = fluid.options().gamma;
+    const Vec3d force{fluid.uniform_force[0], fluid.uniform_force[1], fluid.uniform_force[2]};
     double pressure[2];
     for (const int side : {0, 1}) {
-        const Vec3d outward = side == 0 ? -direction : direction, surface = centre + end * outward;
-        const Vec3d widths{width_at(axes[0], surface.x), width_at(axes[1], surface.y),
-                           width_at(axes[2], surface.z)};
-        const double h = norm(Vec3d{outward.x * widths.x, outward.y * widths.y, outward.z * widths.z});
-        double p[3];
+        const Vec3d outward = side == 0 ? -direction : direction, surface = state.centre + end * outward;
+        const Vec3d wall = state.velocity + cross(state.angular_velocity, end * outward);
+        const double h = grid.width(surface, outward);
+        double p[3], bend[3];
         for (int k = 0; k < 3; ++k) {
-            const Vec3d at = surface + ((k + 2) * h) * outward;
-            for (std::size_t d = 0; d < 3; ++d)
-                if (component(at, d) < axes[d].lower() || component(at, d) > axes[d].upper()) return NAN;
-            p[k] = gamma * (probe(at)[0] - 1) / 3;
+            const double n = k + 2;
+            const Vec3d at = surface + (n * h) * outward;
+            if (!grid.contains(at)) return NAN;
+            const std::array<double, 4> q = probe(at);
+            p[k] = fluid.gamma * (q[0] - 1) / 3;
+            bend[k] = dot(Vec3d{q[1], q[2], q[3]} - wall, outward) / (n * n);
         }
-        pressure[side] = 6 * p[0] - 8 * p[1] + 3 * p[2];  // parabola through 2, 3, 4 taken at 0
+        const double a = 6 * bend[0] - 8 * bend[1] + 3 * bend[2];  // parabola through 2, 3, 4 taken at 0
+        const double slope = 2 * a * fluid.nu / h + h * dot(force - state.acceleration, outward);
+        for (int k = 0; k < 3; ++k) p[k] -= (k + 2) * slope;
+        pressure[side] = (36 * p[0] - 32 * p[1] + 9 * p[2]) / 13;  // b + c n^2 + d n^3 taken at 0
     }
     return pressure[0] - pressure[1];
 }

@@ -3,8 +3,17 @@
 #include "apps/coupled_run.hpp"
 #include "apps/fluid_run.hpp"
 #include "apps/fluid_system.hpp"
+#include "apps/interrupt.hpp"
 
 namespace hemoflux::apps {
+
+void prepare_stop(const RunOptions& options) {
+    if (!options.watch) catch_interrupts();
+}
+
+bool stop_asked(const RunOptions& options, const RunPoint& point) {
+    return options.watch ? !options.watch(point) : interrupted();
+}
 
 void check_run(const Case& c) {
     switch (c.kind) {

@@ -4,8 +4,10 @@
 
 #include "apps/case_check.hpp"
 #include "apps/commands.hpp"
+#include "apps/estimate.hpp"
 #include "apps/run.hpp"
 #include "apps/sweep.hpp"
+#include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::apps {
@@ -37,12 +39,15 @@ void complete(Arguments& arguments) {
 int run(Arguments& arguments) {
     complete(arguments);
     const Case c = read_case(arguments.file, arguments.options.sets);
-    for (const std::string& warning : check_case(c)) {
+    const std::vector<std::string> warnings = check_case(c);
+    if (arguments.check && arguments.options.threads > 0) exchange::set_threads(arguments.options.threads);
+    // before the warnings, so that a case which cannot be run gives its error alone
+    const std::string numbers = arguments.check ? derived_numbers(c) : "";
+    for (const std::string& warning : warnings) {
         fmt::print(stderr, "warning: {}.\n", warning);
     }
     if (arguments.check) {
-        check_run(c);
-        fmt::print("{}\n# The case can be run.\n", c.resolved);
+        fmt::print("{}\n{}# The case can be run.\n", c.resolved, numbers);
         return static_cast<int>(Exit::done);
     }
     if (c.kind == CaseKind::membrane) {

@@ -9,6 +9,7 @@
 #include "apps/output/atomic_file.hpp"
 #include "apps/output/pictures.hpp"
 #include "apps/output/vtk_writer.hpp"
+#include "apps/speed.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 
@@ -41,10 +42,13 @@ output::DataArray vorticity(const fluid::Flow& flow, double factor) {
 /// The fields the case asks for, in physical units.
 std::vector<output::DataArray> fluid_arrays(const Case& c, const Scales& s, const fluid::Flow& flow,
                                             double gamma) {
-    const auto* solver = dynamic_cast<const fluid::Solver*>(&flow);
-    const fluid::StateView view = solver ? solver->state().view() : fluid::StateView{};
-    const auto field = [&](const double* values, double factor) {
-        return scaled(solver->state().interior(values), factor);
+    // one component of the body force, or the viscosity (3), times a factor; empty where there is none
+    const auto coefficient = [&](int k, double factor) {
+        if (const auto* hex = dynamic_cast<const fluid::HexSolver*>(&flow))
+            return scaled(hex->coefficient(k), factor);
+        const fluid::State& state = dynamic_cast<const fluid::Solver&>(flow).state();
+        const double* field = k == 3 ? state.view().nu : state.view().force[k];
+        return field ? scaled(state.interior(field), factor) : std::vector<double>{};
     };
     std::vector<output::DataArray> arrays;
     for (const std::string& name : c.output.fields) {
@@ -60,12 +64,15 @@ std::vector<output::DataArray> fluid_arrays(const Case& c, const Scales& s, cons
             arrays.push_back({"pressure_Pa", 1, std::move(p)});
         } else if (name == "vorticity") {
             arrays.push_back(vorticity(flow, s.velocity_um_per_s));
-        } else if (name == "viscosity" && view.nu) {
-            arrays.push_back({"viscosity_Pa_s", 1, field(view.nu, s.viscosity_pa_s)});
-        } else if (name == "force" && view.force[0]) {
+        } else if (name == "viscosity") {
+            std::vector<double> mu = coefficient(3, s.viscosity_pa_s);
+            if (!mu.empty()) arrays.push_back({"viscosity_Pa_s", 1, std::move(mu)});
+        } else if (name == "force") {
             const double f = s.pressure_pa;
-            arrays.push_back(output::vector_array("force_density_Pa_per_um", field(view.force[0], f),
-                                                  field(view.force[1], f), field(view.force[2], f)));
+            const std::vector<double> x = coefficient(0, f);
+            if (!x.empty())
+                arrays.push_back(
+                    output::vector_array("force_density_Pa_per_um", x, coefficient(1, f), coefficient(2, f)));
         }
     }
     return arrays;
@@ -114,16 +121,14 @@ void require_same_case(const std::string& stored, const std::string& now) {
 
 /// Whole periods that bring the middle of a cell back into the box. Nodes are kept unwrapped; a picture shows every cell
 /// once and in one piece, which may stick out of the box.
-Vec3d into_box(const Case& c, const meshing::RectilinearGrid& grid, const std::vector<Vec3d>& nodes) {
+Vec3d into_box(const coupling::NodeBox& box, const std::vector<Vec3d>& nodes) {
     Vec3d sum{0, 0, 0};
     for (const Vec3d& r : nodes) sum += r;
     const Vec3d middle = (1 / static_cast<double>(nodes.size())) * sum;
     const double at[3] = {middle.x, middle.y, middle.z};
     double shift[3] = {0, 0, 0};
     for (std::size_t q = 0; q < 3; ++q)
-        if (c.periodic(q))
-            shift[q] =
-                -grid.axes[q].length() * std::floor((at[q] - grid.axes[q].lower()) / grid.axes[q].length());
+        if (box.periodic[q]) shift[q] = -box.length[q] * std::floor((at[q] - box.lower[q]) / box.length[q]);
     return {shift[0], shift[1], shift[2]};
 }
 
@@ -132,7 +137,16 @@ std::optional<output::LatestCheckpoint> checkpoint_to_continue(const Case& c, co
     output::LatestCheckpoint latest = output::latest_checkpoint(options.restart);
     latest.checkpoint.require_text("version", HEMOFLUX_VERSION, "the version of hemoflux");
     require_same_case(latest.checkpoint.text("case"), c.resolved);
+    if (const double step = latest.checkpoint.number("step"); !(step >= 0 && step < 1e15))
+        throw InputError("the checkpoint " + latest.path.string(), fmt::format("its step is {}", step),
+                         "Restart from an older checkpoint, or start anew without --restart");
     return latest;
+}
+
+/// Writes the case before anything else, so that the folder is known as a run whatever kills it; returns the log's name.
+std::filesystem::path begin_folder(const output::OutputFolder& folder, const Case& c) {
+    output::write_file(folder.resolved(), c.resolved);
+    return folder.log();
 }
 
 }  // namespace
@@ -141,14 +155,15 @@ RunFiles::RunFiles(const Case& c, const RunOptions& options)
     : case_(c),
       continued_(checkpoint_to_continue(c, options)),
       folder_(options.output, same_folder(options) ? output::Folder::restart : output::Folder::fresh),
-      log_(folder_.log(), options.quiet, same_folder(options)) {
+      log_(begin_folder(folder_, c), options.quiet, same_folder(options)) {
     if (continued_) {
         if (!continued_->warning.empty()) log_.warn(continued_->warning);
         moved_ = !same_folder(options);
-        first_step_ = static_cast<long long>(restart()->number("step"));
+        first_step_ =
+            static_cast<long long>(restart()->number("step"));  // as checkpoint_to_continue() found it
         log_.info(fmt::format("continuing from {} (step {})", continued_->path.string(), first_step_));
     }
-    output::write_file(folder_.resolved(), c.resolved);
+    note_environment(log_);
 }
 
 void RunFiles::start_history(const std::vector<std::string>& columns) {
@@ -176,27 +191,43 @@ void RunFiles::start_series(double position) {
 }
 
 void RunFiles::write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
-                          const meshing::HexMesh& mesh, double position) {
+                          const meshing::HexMesh& mesh, const membrane::Batch* cells,
+                          const RigidBodies* bodies, const coupling::Loop* loop, double position) {
     auto file = folder_.fluid_file(fluid_series_->next());
     file.replace_extension(".vtu");
     output::write_fluid(
         file, mesh, in_mesh_order(fluid_arrays(c, scales, flow, flow.options().gamma), flow.grid().original),
-        position);
+        position, c.output.compression);
     fluid_series_->add(position, file);
+    if (cells || bodies)
+        write_surfaces(cells, bodies, cells ? loop->grid().box() : coupling::NodeBox{}, position);
 }
 
 void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
                            const membrane::Batch* cells, const RigidBodies* bodies, double position) {
     const auto fluid_file = folder_.fluid_file(fluid_series_->next());
     output::write_fluid(fluid_file, fluid.grid().rectilinear().axes,
-                        fluid_arrays(c, scales, fluid, fluid.options().gamma), position);
+                        fluid_arrays(c, scales, fluid, fluid.options().gamma), position,
+                        c.output.compression);
     fluid_series_->add(position, fluid_file);
     if (!cells && !bodies) return;
+    const meshing::RectilinearGrid& grid = fluid.grid().rectilinear();
+    coupling::NodeBox box;
+    for (std::size_t q = 0; q < 3; ++q) {
+        box.lower[q] = grid.axes[q].lower();
+        box.length[q] = grid.axes[q].length();
+        box.periodic[q] = c.periodic(q);
+    }
+    write_surfaces(cells, bodies, box, position);
+}
+
+void RunFiles::write_surfaces(const membrane::Batch* cells, const RigidBodies* bodies,
+                              const coupling::NodeBox& box, double position) {
     std::vector<meshing::SurfaceMesh> meshes;
     std::vector<double> fx, fy, fz;
     for (std::size_t i = 0; cells && i < cells->cells(); ++i) {
         meshes.push_back({cells->positions(i), cells->topology().triangles()});
-        meshing::translate(meshes.back(), into_box(c, fluid.grid().rectilinear(), meshes.back().vertices));
+        meshing::translate(meshes.back(), into_box(box, meshes.back().vertices));
         constexpr double piconewton_per_unit = 10;
         for (const Vec3d& f : cells->forces(i)) {
             fx.push_back(f.x * piconewton_per_unit);
@@ -214,7 +245,8 @@ void RunFiles::write_frame(const Case& c, const Scales& scales, const fluid::Sol
         }
     }
     const auto cell_file = folder_.cell_file(cell_series_->next());
-    output::write_cells(cell_file, meshes, {output::vector_array("force_pN", fx, fy, fz)}, position);
+    output::write_cells(cell_file, meshes, {output::vector_array("force_pN", fx, fy, fz)}, position, {}, {},
+                        case_.output.compression);
     cell_series_->add(position, cell_file);
 }
 
@@ -238,6 +270,16 @@ output::Summary start_summary(const Case& c) {
     for (const ReferenceInput& r : c.references)
         if (!of_sweep(r)) summary.references[r.observable] = {r.value, r.low, r.high, r.source};
     return summary;
+}
+
+void note_environment(const output::Log& log) {
+    const Machine m = this_machine();
+    log.detail(fmt::format("{}   version {}; backend {}; threads {}; cores {}; processor {}",
+                           environment_word, HEMOFLUX_VERSION, m.backend, m.threads, m.cores, m.processor));
+}
+
+std::string closing_line(const std::filesystem::path& folder) {
+    return fmt::format("results are in {0}; hemoflux report {0} makes a page of them", folder.string());
 }
 
 void draw_pictures(const Case& c, const RunFiles& files, const std::string& time_label) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/case.hpp"
@@ -16,6 +17,7 @@
 #include "apps/output/summary.hpp"
 #include "apps/rigid_bodies.hpp"
 #include "apps/run.hpp"
+#include "coupling/loop.hpp"
 #include "exchange/error.hpp"
 #include "fluid/hex_solver.hpp"
 #include "fluid/solver.hpp"
@@ -45,12 +47,13 @@ class RunFiles {
 
     /// Opens the series, without the frames later than `position`.
     void start_series(double position);
-    /// Writes a flow on a mesh as the next frame.
-    void write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
-                    const meshing::HexMesh& mesh, double position);
     /// Writes the fluid and the cells and bodies (if any) as the next frame.
     void write_frame(const Case& c, const Scales& scales, const fluid::Solver& fluid,
                      const membrane::Batch* cells, const RigidBodies* bodies, double position);
+    /// The same for a flow on a mesh; loop: of the cells and bodies, if any.
+    void write_flow(const Case& c, const Scales& scales, const fluid::HexSolver& flow,
+                    const meshing::HexMesh& mesh, const membrane::Batch* cells, const RigidBodies* bodies,
+                    const coupling::Loop* loop, double position);
 
     /// Writes a checkpoint with version, case, step and the history up to this step added.
     void write_checkpoint(output::Checkpoint checkpoint, long long step);
@@ -61,6 +64,10 @@ class RunFiles {
     [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }
 
   private:
+    /// The surfaces of a frame, cells moved back into a box that repeats.
+    void write_surfaces(const membrane::Batch* cells, const RigidBodies* bodies, const coupling::NodeBox& box,
+                        double position);
+
     const Case& case_;
     std::optional<output::LatestCheckpoint> continued_;  // before the folder: a refused one changes nothing
     output::OutputFolder folder_;
@@ -85,6 +92,16 @@ int watched(const output::Log& log, const March& march) {
 
 /// A summary with case, version, backend, threads and references filled in.
 output::Summary start_summary(const Case& c);
+
+/// With this word the line of the log begins that names version, backend, threads, cores and processor, parted by
+/// semicolons: "environment   version 0.1.0; backend OMP; ...".
+constexpr std::string_view environment_word = "environment";
+
+/// Notes in the log file, and only there, what computes.
+void note_environment(const output::Log& log);
+
+/// The last line of a run: where its results are and how a page comes of them.
+std::string closing_line(const std::filesystem::path& folder);
 
 /// Pictures of the frames, whose times are labelled time_label, and the log line if there are none; never fails.
 void draw_pictures(const Case& c, const RunFiles& files, const std::string& time_label);

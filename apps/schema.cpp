@@ -16,6 +16,12 @@ Form Form::above(double bound, std::string why) const {
     return form;
 }
 
+Form Form::up_to(double bound) const {
+    Form form = *this;
+    form.high = bound;
+    return form;
+}
+
 Form Form::within(double from, double to, std::string why) const {
     Form form = *this;
     form.low = from;
@@ -79,7 +85,7 @@ std::string Form::range() const {
     const bool below = std::isfinite(low);
     const bool above_too = std::isfinite(high);
     if (below && above_too) {
-        return fmt::format("{} .. {}", low, high);
+        return open ? fmt::format("> {}, <= {}", low, high) : fmt::format("{} .. {}", low, high);
     }
     if (below) {
         return fmt::format("{} {}", open ? ">" : ">=", low);
@@ -87,18 +93,41 @@ std::string Form::range() const {
     return above_too ? fmt::format("<= {}", high) : "";
 }
 
-Form quantity_in(std::string unit) { return {.type = Type::quantity, .unit = std::move(unit)}; }
-Form number() { return {.type = Type::number}; }
-Form integer() { return {.type = Type::integer}; }
-Form flag() { return {.type = Type::flag}; }
-Form text() { return {.type = Type::text}; }
-Form path() { return {.type = Type::path}; }
-Form choice(std::initializer_list<const char*> words) {
-    return {.type = Type::choice, .choices = {words.begin(), words.end()}};
+namespace {
+
+Form of_type(Type type) {
+    Form form{};
+    form.type = type;
+    return form;
 }
+
+}  // namespace
+
+Form quantity_in(std::string unit) {
+    Form form = of_type(Type::quantity);
+    form.unit = std::move(unit);
+    return form;
+}
+
+Form choice(std::initializer_list<const char*> words) {
+    Form form = of_type(Type::choice);
+    form.choices.assign(words.begin(), words.end());
+    return form;
+}
+
+Form table(Table members) {
+    Form form = of_type(Type::table);
+    form.members.push_back(std::move(members));
+    return form;
+}
+
+Form number() { return of_type(Type::number); }
+Form integer() { return of_type(Type::integer); }
+Form flag() { return of_type(Type::flag); }
+Form text() { return of_type(Type::text); }
+Form path() { return of_type(Type::path); }
 Form automatic() { return choice({"auto"}); }
-Form anything() { return {.type = Type::anything}; }
-Form table(Table members) { return {.type = Type::table, .members = {std::move(members)}}; }
+Form anything() { return of_type(Type::anything); }
 
 const Key* Table::find(std::string_view key) const {
     const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.name == key; });

@@ -1,5 +1,5 @@
 /// The description of every table of a case file, written once. Parsing, error messages, the resolved echo,
-/// the reference page (`hemoflux schema`) all come from it.
+/// the reference page and the JSON schema (`hemoflux schema`) all come from it.
 #pragma once
 
 #include <initializer_list>
@@ -23,7 +23,7 @@ struct Form {
     Type type;
     std::string unit = {};                  ///< unit the program receives a quantity in
     std::vector<std::string> choices = {};  ///< allowed words of a choice
-    std::vector<Table> members = {};        ///< exactly one table, for Type::table
+    std::vector<Table> members;             ///< exactly one table, for Type::table (which is incomplete here)
     std::size_t count = single;             ///< single value, array of this many, or array of any number
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -32,6 +32,8 @@ struct Form {
 
     /// The same form with values > bound.
     [[nodiscard]] Form above(double bound, std::string why) const;
+    /// The same form with values of at most `bound` as well.
+    [[nodiscard]] Form up_to(double bound) const;
     /// The same form with values in [from, to].
     [[nodiscard]] Form within(double from, double to, std::string why) const;
     /// The same form as an array of n values (Form::any: any number of them).
@@ -94,6 +96,7 @@ Table mesh_table();
 Table steady_table();
 Table contact_table();
 Table packing_table();
+Table watchdog_table();
 
 /// The known name nearest to `word` by edit distance, "" when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
@@ -103,5 +106,8 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 
 /// The reference page of the case file in Markdown.
 std::string schema_page();
+
+/// The same as a JSON schema (draft 7), with which editors check and complete a case file as it is written.
+std::string json_schema();
 
 }  // namespace hemoflux::apps

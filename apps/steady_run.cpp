@@ -5,9 +5,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/interrupt.hpp"
 #include "apps/output/convergence_plot.hpp"
+#include "coupling/held_bodies.hpp"
 #include "exchange/error.hpp"
+#include "fluid/cell_report.hpp"
 #include "fluid/probe.hpp"
 #include "fluid/steady.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 /// Iterations between two rows of the history when they are many.
 constexpr std::size_t row_interval = 10;
 
-fluid::SteadyOptions steady_options(const SteadyInput& in) {
+fluid::SteadyOptions steady_options(const SteadyInput& in, const std::optional<int>& patience) {
     fluid::SteadyOptions o;
     o.method =
         in.method == SteadyMethod::implicit ? fluid::SteadyMethod::newton : fluid::SteadyMethod::local_steps;
@@ -28,6 +29,7 @@ fluid::SteadyOptions steady_options(const SteadyInput& in) {
     o.most_iterations = static_cast<std::size_t>(in.iterations);
     o.sigma = in.sigma;
     o.c = in.viscous_weight;
+    if (patience) o.patience = o.newton_patience = static_cast<std::size_t>(*patience);
     return o;
 }
 
@@ -52,17 +54,28 @@ void start_from(const std::filesystem::path& folder, FluidSystem& system) {
 class SteadyRun {
   public:
     SteadyRun(const Case& c, const RunOptions& options)
-        : case_(c), system_(started(c)), observer_(make_observer()), files_(c, options) {}
+        : case_(c),
+          options_(options),
+          system_(started(c)),
+          held_(hold()),
+          observer_(make_observer()),
+          files_(c, options) {}
 
     int go() {
-        catch_interrupts();
+        prepare_stop(options_);
         files_.log().info(describe(case_, system_));
         if (!system_.reasoning.empty()) files_.log().info(system_.reasoning);
         files_.start_history({"step", "measure", "residual_density", "residual_u", "residual_v", "residual_w",
                               "evaluations", "cpu_s", "krylov", "courant"});
         files_.start_series(0);
         const auto start = std::chrono::steady_clock::now();
-        const int code = watched(files_.log(), [this] { return iterate(); });
+        int code = static_cast<int>(Exit::done);
+        try {
+            code = watched(files_.log(), [this] { return iterate(); });
+        } catch (const NumericalError&) {
+            keep_last_good_state();
+            throw;
+        }
         wall_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         keep();
         if (code != static_cast<int>(Exit::done)) {
@@ -71,6 +84,8 @@ class SteadyRun {
             return code;
         }
         report();
+        if (result_.end == fluid::SteadyEnd::stalled)
+            watched(files_.log(), [this] { return report_stall(); });
         return code;
     }
 
@@ -81,6 +96,13 @@ class SteadyRun {
         return system;
     }
 
+    std::unique_ptr<coupling::HeldBodies> hold() {
+        if (!system_.bodies) return nullptr;
+        return std::make_unique<coupling::HeldBodies>(dynamic_cast<fluid::Solver&>(*system_.flow),
+                                                      kernel_of(case_.coupling.kernel),
+                                                      system_.bodies->all());
+    }
+
     std::optional<FlowObserver> make_observer() {
         if (!case_.observables) return std::nullopt;
         return FlowObserver(case_, system_.scales, system_.domain.bounds, system_.options().gamma,
@@ -88,11 +110,19 @@ class SteadyRun {
     }
 
     int iterate() {
-        const fluid::SteadyOptions options = steady_options(*case_.steady);
-        result_ = fluid::find_steady_state(*system_.flow, options, [&](const fluid::SteadyRecord& r) {
-            if (options.method == fluid::SteadyMethod::newton || r.iteration % row_interval == 1) record(r);
-            return !interrupted();
-        });
+        const fluid::SteadyOptions options = steady_options(*case_.steady, case_.watchdog.patience);
+        const auto each = [&](const fluid::SteadyRecord& r) {
+            if (options.method == fluid::SteadyMethod::newton || r.iteration % row_interval == 1) {
+                record(r);
+                good_ = state();
+                good_iteration_ = r.iteration;
+            }
+            const auto iteration = static_cast<long long>(r.iteration);
+            return !stop_asked(options_, {iteration, static_cast<double>(iteration),
+                                          static_cast<double>(options.most_iterations)});
+        };
+        result_ = fluid::find_steady_state(*system_.flow, options, each, held_.get());
+        if (held_) held_->settle();
         if (options.method != fluid::SteadyMethod::newton) record(result_.last);
         files_.log().info(fmt::format("{}: {} iterations, {} residual evaluations, measure {:.3g}",
                                       fluid::describe(result_.end), result_.last.iteration,
@@ -108,11 +138,39 @@ class SteadyRun {
                         static_cast<double>(r.krylov), r.courant});
     }
 
-    void keep() {
-        write_frame(files_, case_, system_, 0);
+    [[nodiscard]] output::Checkpoint state() const {
         output::Checkpoint checkpoint;
         save_flow(*system_.flow, checkpoint);
-        files_.write_checkpoint(checkpoint, static_cast<long long>(result_.last.iteration));
+        if (system_.bodies) system_.bodies->save(checkpoint);
+        return checkpoint;
+    }
+
+    void keep() {
+        write_frame(files_, case_, system_, 0);
+        files_.write_checkpoint(state(), static_cast<long long>(result_.last.iteration));
+    }
+
+    void keep_last_good_state() {
+        if (good_iteration_ == 0) return;
+        files_.write_checkpoint(good_, static_cast<long long>(good_iteration_));
+        files_.log().warn(
+            fmt::format("the state of iteration {} is kept; start another run from there with --set "
+                        "steady.start={}",
+                        good_iteration_, files_.folder().path().string()));
+    }
+
+    /// Ends a run whose residual no longer falls; the results are written, but they are not those of a steady flow.
+    [[noreturn]] int report_stall() const {
+        throw NumericalError(
+            fmt::format("the residual stalls at {:.3g} of its first value, the largest part in {}",
+                        result_.lowest,
+                        fluid::describe_cell(*system_.flow, fluid::least_steady_cell(*system_.flow))),
+            "it no longer falls, so the flow is not steady: it may oscillate by itself, or a corner or a "
+            "limit on tau "
+            "feeds it; the last state is kept",
+            "raise steady.tolerance or watchdog.patience, choose another steady.method, or go on in time "
+            "with [time] in "
+            "place of [steady]");
     }
 
     void report() {
@@ -132,6 +190,7 @@ class SteadyRun {
             if (!text.empty()) files_.log().warn(text);
         };
         if (observer_) warn(observer_->observe(s, files_.folder()));
+        if (system_.bodies) s.observables.merge(system_.bodies->observables(*system_.flow, {}, 0));
         if (system_.errors) {
             system_.errors->observe(*system_.flow, 0);
             system_.errors->report(s);
@@ -147,7 +206,7 @@ class SteadyRun {
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         draw();
-        files_.log().info(fmt::format("results are in {}", files_.folder().path().string()));
+        files_.log().info(closing_line(files_.folder().path()));
     }
 
     void draw() {
@@ -165,10 +224,14 @@ class SteadyRun {
     }
 
     const Case& case_;
+    const RunOptions& options_;
     FluidSystem system_;
+    std::unique_ptr<coupling::HeldBodies> held_;  ///< where the case has bodies
     std::optional<FlowObserver> observer_;
     RunFiles files_;
     fluid::SteadyResult result_;
+    output::Checkpoint good_;
+    std::size_t good_iteration_ = 0;
     double wall_s_ = 0;
 };
 
@@ -187,7 +250,7 @@ void write_frame(RunFiles& files, const Case& c, const FluidSystem& system, doub
         files.write_frame(c, system.scales, *box, nullptr, system.bodies.get(), position);
     else
         files.write_flow(c, system.scales, dynamic_cast<const fluid::HexSolver&>(*system.flow),
-                         *system.domain.mesh, position);
+                         *system.domain.mesh, nullptr, system.bodies.get(), system.loop.get(), position);
 }
 
 }  // namespace hemoflux::apps

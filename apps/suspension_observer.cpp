@@ -24,18 +24,18 @@ bool SuspensionObserver::wanted(const Case& c) { return c.cells.size() > 1 || un
 
 SuspensionObserver::SuspensionObserver(const Case& c, CoupledSystem& system)
     : system_(system),
-      balance_(*system.fluid, *system.loop),
       channel_(undisturbed_flow(c)),
       axis_(channel_ ? channel_->axis() : 0),
       sheared_(plain_shear(c)),
       gaps_(c.cells.size() > 1),
-      balanced_(c.time.scheme != TimeScheme::rk4),
       rate_(c.shear_rate.value_or(0)) {
-    double cells = 0, box = 1;
+    if (system.box_solver() && c.time.scheme != TimeScheme::rk4)
+        balance_.emplace(*system.box_solver(), *system.loop);
+    double cells = 0, box = 0;
     for (std::size_t i = 0; i < system.cells->cells(); ++i)
         cells +=
             membrane::shape_moments(system.cells->topology().triangles(), system.cells->positions(i)).volume;
-    for (const meshing::Axis& axis : system.fluid->grid().rectilinear().axes) box *= axis.length();
+    for (std::size_t i = 0; i < system.fluid->cells(); ++i) box += system.fluid->volume(i);
     haematocrit_ = cells / box;
 }
 
@@ -43,12 +43,12 @@ std::vector<std::string> SuspensionObserver::columns() const {
     std::vector<std::string> names{"cell_speed_um_s", "flow_speed_um_s"};
     if (channel_ || sheared_) names.emplace_back("relative_viscosity");
     if (gaps_) names.emplace_back("smallest_gap_um");
-    if (balanced_) names.emplace_back("momentum_error");
+    if (balance_) names.emplace_back("momentum_error");
     return names;
 }
 
 void SuspensionObserver::before_step() {
-    if (balanced_) balance_.before();
+    if (balance_) balance_->before();
 }
 
 double SuspensionObserver::mean_cell_position() const {
@@ -73,7 +73,7 @@ double SuspensionObserver::mean_flow() const {
 
 double SuspensionObserver::relative_viscosity(double flow, const std::array<Vec3d, 6>& flux) const {
     if (channel_) return channel_->mean_speed() / flow;
-    const auto& axes = system_.fluid->grid().rectilinear().axes;
+    const auto& axes = system_.domain.box->axes;
     const double area = axes[0].length() * axes[2].length();
     return (flux[2].x - flux[3].x) / (2 * area * system_.numerics.nu * system_.numerics.rate);
 }
@@ -85,15 +85,15 @@ std::vector<double> SuspensionObserver::observe(double strain, double step) {
     last_strain_ = strain;
     last_position_ = position;
     coupling::MomentumStep balance;
-    if (balanced_ && step > 0)
-        balance = balance_.after(step);
-    else
-        balance.flux = system_.fluid->border_momentum();
+    if (balance_ && step > 0)
+        balance = balance_->after(step);
+    else if (sheared_)
+        balance.flux = system_.box_solver()->border_momentum();
     if (channel_ || sheared_) row.push_back(relative_viscosity(flow, balance.flux));
     if (gaps_)
         row.push_back(
             std::min(system_.loop->cells()->smallest_gap().distance, system_.loop->cells()->gap_reach()));
-    if (balanced_) row.push_back(step > 0 ? balance.error() : 0);
+    if (balance_) row.push_back(step > 0 ? balance.error() : 0);
     strain_.push_back(strain);
     records_.insert(records_.end(), row.begin(), row.end());
     return row;

@@ -15,6 +15,7 @@
 
 namespace hemoflux::apps {
 
+/// Follows all cells of a suspension together.
 class SuspensionObserver {
   public:
     /// Whether a case has anything to show.
@@ -46,10 +47,10 @@ class SuspensionObserver {
     [[nodiscard]] double relative_viscosity(double flow, const std::array<Vec3d, 6>& flux) const;
 
     CoupledSystem& system_;
-    coupling::MomentumBalance balance_;
+    std::optional<coupling::MomentumBalance> balance_;  ///< in a box, with one force a step
     std::optional<fluid::DuctFlow> channel_;
     std::size_t axis_ = 0;
-    bool sheared_ = false, gaps_ = false, balanced_ = false;
+    bool sheared_ = false, gaps_ = false;
     double rate_, haematocrit_ = 0;
     double last_strain_ = 0, last_position_ = 0;
     std::vector<double> strain_, records_;  ///< records: columns() side by side

@@ -227,8 +227,7 @@ void report(const Case& base, const SweepResults& r, const RunOptions& options) 
         if (const auto failed = output::plot(plot, options.output / "plot_sweep")) message = *failed;
     }
     if (options.quiet) return;
-    fmt::print("{}{}results are in {}\n", printed(r, shown), output::to_table(summary),
-               options.output.string());
+    fmt::print("{}{}{}\n", printed(r, shown), output::to_table(summary), closing_line(options.output));
     if (!message.empty()) fmt::print(stderr, "warning: {}\n", message);
 }
 

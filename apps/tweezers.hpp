@@ -13,6 +13,7 @@ namespace hemoflux::apps {
 /// Diameters against force; the ends of the error bars are empty where the file has none.
 struct Experiment {
     std::vector<double> force;  ///< pN
+    /// Measured values with the ends of their error bars.
     struct Diameter {
         std::vector<double> value, low, high;  ///< um
     } axial, transverse;

@@ -39,11 +39,17 @@ ut_system* unit_system() {
     return system.get();
 }
 
+/// What a message shows of a text, which may be absurdly long.
+std::string shown(std::string_view text) {
+    constexpr std::size_t most = 60;
+    return text.size() <= most ? std::string(text) : std::string(text.substr(0, most)) + "...";
+}
+
 Unit parse_unit(const std::string& text, const std::string& whole) {
     Unit unit(ut_parse(unit_system(), text.c_str(), UT_UTF8), &ut_free);
     if (!unit) {
-        throw InputError(fmt::format("\"{}\"", whole),
-                         fmt::format("\"{}\" is not a unit UDUNITS-2 knows", text), known_units);
+        throw InputError(fmt::format("\"{}\"", shown(whole)),
+                         fmt::format("\"{}\" is not a unit UDUNITS-2 knows", shown(text)), known_units);
     }
     return unit;
 }
@@ -58,8 +64,8 @@ double convert(double value, const std::string& from, const std::string& to, con
     const Converter converter(ut_get_converter(source.get(), target.get()), &cv_free);
     if (!converter) {
         throw InputError(
-            fmt::format("\"{}\"", whole),
-            fmt::format("\"{}\" cannot be converted to \"{}\", it measures something else", from, to),
+            fmt::format("\"{}\"", shown(whole)),
+            fmt::format("\"{}\" cannot be converted to \"{}\", it measures something else", shown(from), to),
             fmt::format("Write the value in \"{}\" or a multiple of it", to));
     }
     return cv_convert_double(converter.get(), value);
@@ -82,17 +88,19 @@ double quantity(std::string_view text, const std::string& unit) {
     double value = 0;
     const auto [rest, status] = std::from_chars(begin, end, value);
     if (status != std::errc() || !std::isfinite(value)) {
-        throw InputError(fmt::format("\"{}\"", text), "it does not start with a finite number", known_units);
+        throw InputError(fmt::format("\"{}\"", shown(text)), "it does not start with a finite number",
+                         known_units);
     }
     const std::string own(trimmed(std::string_view(rest, static_cast<std::size_t>(end - rest))));
     if (own.empty()) {
-        throw InputError(fmt::format("\"{}\"", text), "the unit is missing",
-                         fmt::format("Write the unit after the number, for example \"{} {}\"", whole, unit));
+        throw InputError(
+            fmt::format("\"{}\"", shown(text)), "the unit is missing",
+            fmt::format("Write the unit after the number, for example \"{} {}\"", shown(whole), unit));
     }
     const double converted = convert(value, own, unit, whole);
     if (!std::isfinite(converted)) {
-        throw InputError(fmt::format("\"{}\"", text), fmt::format("it is not a finite number of {}", unit),
-                         "Check the exponent");
+        throw InputError(fmt::format("\"{}\"", shown(text)),
+                         fmt::format("it is not a finite number of {}", unit), "Check the exponent");
     }
     return converted;
 }

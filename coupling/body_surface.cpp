@@ -132,12 +132,10 @@ BodySurface cylinder_mantle(double diameter, double length, const Vec3d& axis, i
     return s;
 }
 
-void retract(BodySurface& surface, const CellGridView& grid, const Vec3d& centre, double share) {
+void retract(BodySurface& surface, const FluidGrid& grid, const Vec3d& centre, double share) {
     for (std::size_t j = 0; j < surface.nodes.size(); ++j) {
-        const Vec3d at = centre + surface.nodes[j], n = surface.normals[j];
-        const Vec3d along{n.x * grid.axis[0].width_at(at.x), n.y * grid.axis[1].width_at(at.y),
-                          n.z * grid.axis[2].width_at(at.z)};
-        surface.nodes[j] -= (share * norm(along)) * n;
+        const Vec3d n = surface.normals[j];
+        surface.nodes[j] -= (share * grid.width(centre + surface.nodes[j], n)) * n;
     }
 }
 

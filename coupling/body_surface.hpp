@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "coupling/cell_grid.hpp"
+#include "coupling/fluid_grid.hpp"
 #include "exchange/vec3.hpp"
 #include "meshing/surface_mesh.hpp"
 
@@ -49,8 +49,8 @@ BodySurface closed_surface(meshing::SurfaceMesh mesh);
 /// centres of equal patches. InputError unless lengths and numbers are positive, n_around >= 8.
 BodySurface cylinder_mantle(double diameter, double length, const Vec3d& axis, int n_around, int n_along);
 
-/// Draws the nodes in by `share` cells along the normal: share sqrt(sum (n_a h_a)^2), h_a the widths of the grid where
+/// Draws the nodes in by `share` cells along the normal: share sqrt(sum (n_a h_a)^2), h_a the widths of the cells where
 /// the node is when the body's centre is at `centre`. Areas, volume, inertia and mesh stay those of the true surface.
-void retract(BodySurface& surface, const CellGridView& grid, const Vec3d& centre, double share);
+void retract(BodySurface& surface, const FluidGrid& grid, const Vec3d& centre, double share);
 
 }  // namespace hemoflux::coupling

@@ -84,6 +84,7 @@ struct Phi2 {
     }
 };
 
+/// Support of three cells, (5.8).
 struct Phi3 {
     HEMOFLUX_INLINE static double value(double r) {
         return r < 0.5 ? (1 + std::sqrt(1 - 3 * r * r)) / 3
@@ -106,6 +107,7 @@ struct Phi3 {
     }
 };
 
+/// Support of four cells, (5.9).
 struct Phi4 {
     HEMOFLUX_INLINE static double value(double r) {
         return r < 1 ? (3 - 2 * r + std::sqrt(1 + 4 * r - 4 * r * r)) / 8
@@ -124,6 +126,7 @@ struct Phi4 {
     }
 };
 
+/// Cubic interpolation between four cells, (5.18).
 struct Lagrange {
     HEMOFLUX_INLINE int operator()(const AxisView& axis, double X, double* w) const {
         const int first = detail::window(axis, axis.below(X));

@@ -5,9 +5,8 @@
 #include <cstddef>
 #include <string>
 
-#include "coupling/stencil.hpp"
+#include "coupling/fluid_grid.hpp"
 #include "exchange/field.hpp"
-#include "fluid/state.hpp"
 
 namespace hemoflux::coupling {
 
@@ -31,9 +30,9 @@ class Immersed {
     /// Forces for the step of dt (um/c) to come, at the current nodes; also sets what else it changes in the fluid's
     /// fields (the viscosity inside cells).
     virtual void compute_forces(double dt) = 0;
-    /// After the fluid step: may change the new velocity near the nodes, whose stencils are those that spread the
-    /// forces. Most do not.
-    virtual void correct(double /*dt*/, const StencilSet& /*stencils*/, const fluid::StateView& /*fluid*/) {}
+    /// After the fluid step: may change the new velocity near the nodes, whose link is the one that spread the forces.
+    /// Most do not.
+    virtual void correct(double /*dt*/, const NodeLink& /*link*/, const FluidFields& /*fluid*/) {}
     /// Moves the nodes by a step of dt; velocity: the fluid's new velocity at the nodes (device, c).
     virtual void advance(double dt, const exchange::FieldView& velocity) = 0;
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "exchange/error.hpp"
 #include "membrane/diagnostics.hpp"
@@ -45,8 +47,8 @@ double longest_edge(const membrane::Batch& cells) {
 
 }  // namespace
 
-ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options,
-                             double* nu)
+ImmersedCells::ImmersedCells(const FluidGrid& grid, membrane::Batch& cells, const CellOptions& options,
+                             const exchange::FieldView& nu)
     : cells_(cells), options_(options), nodes_(cells.cells() * cells.stride()), nu_(nu), pull_(options.pull) {
     if (!options_.pull.empty() && options_.pull.size() != nodes_)
         throw InputError(fmt::format("{} pulling forces", options_.pull.size()),
@@ -60,7 +62,7 @@ ImmersedCells::ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const
     if (options_.membrane_time > 0)
         elements_ = std::make_unique<membrane::MembraneViscosity>(cells_, options_.maxwell_stiffness);
     const auto& triangles = cells_.topology().triangles();
-    const NodeBox box = node_box(grid.view());
+    const NodeBox box = grid.box();
     if (options_.contact)
         contact_ = std::make_unique<Contact>(
             box, *options_.contact,
@@ -100,7 +102,9 @@ void ImmersedCells::compute_forces(double /*dt*/) {
                              f.component[1], f.component[2]);
     if (!options_.pull.empty()) add(nodes_, pull_.data(), f.component[0]);
     if (elements_) elements_->add_forces(cells_);
-    if (viscosity_) viscosity_->update(cells_.x().data(), cells_.y().data(), cells_.z().data(), nu_);
+    if (viscosity_)
+        viscosity_->update(cells_.x().data(), cells_.y().data(), cells_.z().data(), nu_.component[0],
+                           nu_.stride);
 }
 
 void ImmersedCells::advance(double dt, const exchange::FieldView& velocity) {
@@ -127,10 +131,15 @@ void ImmersedCells::check() {
 }
 
 void ImmersedCells::report_lost(std::size_t node) const {
-    throw NumericalError(
-        fmt::format("membrane node {} of cell {}", node % cells_.stride(), node / cells_.stride()),
-        "it has left the box or its position is no longer a number",
-        "enlarge the box, set coupling.recentre, or shorten numerics.step_strain");
+    const std::size_t cell = node / cells_.stride(), vertex = node % cells_.stride();
+    const std::string name = fmt::format("membrane node {} of cell {}", vertex, cell);
+    const Vec3d at = cells_.positions(cell)[vertex];
+    if (!std::isfinite(norm(at)))
+        throw NumericalError(name, "its position is no longer a number; the step is probably too long",
+                             "shorten numerics.step_strain");
+    throw NumericalError(fmt::format("{} at ({:.3f}, {:.3f}, {:.3f}) um", name, at.x, at.y, at.z),
+                         "it has left the box; the cell has drifted or grown as long as the box",
+                         "set coupling.recentre if it drifts, or enlarge the box");
 }
 
 CellMemory ImmersedCells::memory() const {
@@ -150,7 +159,7 @@ void ImmersedCells::restore(const CellMemory& memory) {
     if (viscosity_ && !memory.viscosity_nodes[0].empty()) {
         const exchange::Buffer<double> x(memory.viscosity_nodes[0]), y(memory.viscosity_nodes[1]),
             z(memory.viscosity_nodes[2]);
-        viscosity_->recompute(x.data(), y.data(), z.data(), nu_);
+        viscosity_->recompute(x.data(), y.data(), z.data(), nu_.component[0], nu_.stride);
     }
     if (elements_ && !memory.viscous.tension.empty()) elements_->set_state(cells_, memory.viscous);
     place_padding(cells_);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "coupling/cell_grid.hpp"
 #include "coupling/constraint_damping.hpp"
 #include "coupling/contact.hpp"
+#include "coupling/fluid_grid.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/motion.hpp"
 #include "coupling/overlap.hpp"
@@ -50,12 +50,14 @@ struct CellMemory {
     bool operator==(const CellMemory&) const = default;
 };
 
+/// The membrane cells of a batch as one partner of the fluid.
 class ImmersedCells final : public Immersed {
   public:
     /// `grid` and `cells` must outlive it. InputError unless there is a pull for every node of the batch or for none.
-    /// nu: the fluid's viscosity field (device), used where nu_inside is given.
+    /// nu: the fluid's viscosity field, used where nu_inside is given.
     /// Reads the nodes' positions for the centroid.
-    ImmersedCells(const CellGrid& grid, membrane::Batch& cells, const CellOptions& options, double* nu);
+    ImmersedCells(const FluidGrid& grid, membrane::Batch& cells, const CellOptions& options,
+                  const exchange::FieldView& nu);
     ~ImmersedCells() override;
 
     [[nodiscard]] std::string name() const override { return "membrane"; }
@@ -95,7 +97,7 @@ class ImmersedCells final : public Immersed {
     membrane::Batch& cells_;
     CellOptions options_;
     std::size_t nodes_;
-    double* nu_;
+    exchange::FieldView nu_;
     exchange::Buffer<double> pull_;
     std::unique_ptr<membrane::MembraneViscosity> elements_;
     std::unique_ptr<InteriorViscosity> viscosity_;

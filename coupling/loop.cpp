@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "coupling/interpolate.hpp"
+#include "coupling/cell_grid.hpp"
+#include "coupling/hex_cells.hpp"
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::coupling {
 
@@ -14,38 +16,55 @@ using exchange::Shape;
 struct Loop::Partner {
     Immersed& immersed;
     exchange::FieldView position, force;
-    StencilSet stencils;
-    Spreader spreader;
+    std::unique_ptr<NodeLink> link;
+    std::unique_ptr<ForceSpreader> spreader;
     exchange::Buffer<double> v[3];
 
     /// `first`: the spreader that clears the field, null for the first partner itself.
-    Partner(Immersed& what, const exchange::FieldTable& fields, const CellGrid& grid, Kernel kernel,
-            Spreader* first)
+    Partner(Immersed& what, const exchange::FieldTable& fields, const FluidGrid& grid, Kernel kernel,
+            ForceSpreader* first)
         : immersed(what),
           position(fields.read(what.name() + ".position", Shape::vector, "um")),
           force(fields.read(what.name() + ".force", Shape::vector, what.force_unit())),
-          stencils(grid, kernel, what.nodes()),
-          spreader(stencils, first) {
+          link(grid.link(kernel, what.nodes())),
+          spreader(link->spreader(first)) {
         for (auto& component : v) component = exchange::Buffer<double>(what.nodes());
     }
-    void locate() { stencils.update(position.component[0], position.component[1], position.component[2]); }
+    exchange::FieldView velocity() { return {{v[0].data(), v[1].data(), v[2].data()}, v[0].size()}; }
 };
 
-Loop::Loop(fluid::Solver& fluid, Kernel kernel)
-    : fluid_(fluid), kernel_(kernel), grid_(fluid.grid().rectilinear(), fluid.grid().periodic()) {
+Loop::Loop(fluid::Flow& fluid, std::unique_ptr<FluidGrid> grid, Kernel kernel)
+    : fluid_(fluid), kernel_(kernel), grid_(std::move(grid)) {
     fluid_.offer(fields_);
-    velocity_ = fields_.read("fluid.velocity", Shape::vector, "c");
+    at_cells_.density = fields_.read("fluid.density", Shape::scalar, "rho_0");
+    at_cells_.velocity = fields_.read("fluid.velocity", Shape::vector, "c");
     force_density_ = fields_.read("fluid.force_density", Shape::vector, "rho_0 c^2 / um");
 }
 
-Loop::Loop(fluid::Solver& fluid, membrane::Batch& cells, const LoopOptions& o) : Loop(fluid, o.kernel) {
-    double* nu =
-        o.nu_inside.empty() ? nullptr : fields_.read("fluid.viscosity", Shape::scalar, "um c").component[0];
+Loop::Loop(fluid::Solver& fluid, Kernel kernel)
+    : Loop(fluid, std::make_unique<CellGrid>(fluid.grid().rectilinear(), fluid.grid().periodic()), kernel) {}
+
+Loop::Loop(fluid::HexSolver& fluid, Kernel kernel)
+    : Loop(fluid, std::make_unique<HexCells>(fluid.grid()), kernel) {}
+
+Loop::Loop(fluid::Solver& fluid, membrane::Batch& cells, const LoopOptions& options)
+    : Loop(fluid, options.kernel) {
+    add_cells(cells, options, fluid.options().nu);
+}
+
+Loop::Loop(fluid::HexSolver& fluid, membrane::Batch& cells, const LoopOptions& options)
+    : Loop(fluid, options.kernel) {
+    add_cells(cells, options, fluid.options().nu);
+}
+
+void Loop::add_cells(membrane::Batch& cells, const LoopOptions& o, double nu) {
+    exchange::FieldView viscosity;
+    if (!o.nu_inside.empty()) viscosity = fields_.read("fluid.viscosity", Shape::scalar, "um c");
     cells_ = std::make_unique<ImmersedCells>(
-        grid_, cells,
-        CellOptions{o.force_factor, o.nu_inside, fluid_.options().nu, o.smoothing, o.recentre, o.contact,
-                    o.pull, o.surface_nu, o.membrane_time, o.maxwell_stiffness, o.constraint_damping},
-        nu);
+        *grid_, cells,
+        CellOptions{o.force_factor, o.nu_inside, nu, o.smoothing, o.recentre, o.contact, o.pull, o.surface_nu,
+                    o.membrane_time, o.maxwell_stiffness, o.constraint_damping},
+        viscosity);
     add(*cells_);
 }
 
@@ -54,38 +73,33 @@ Loop::~Loop() = default;
 void Loop::add(Immersed& immersed) {
     fields_.offer(immersed.name(), {"position", Shape::vector, "um"}, immersed.positions());
     fields_.offer(immersed.name(), {"force", Shape::vector, immersed.force_unit()}, immersed.forces());
-    partners_.push_back(std::make_unique<Partner>(immersed, fields_, grid_, kernel_,
-                                                  partners_.empty() ? nullptr : &partners_[0]->spreader));
+    partners_.push_back(std::make_unique<Partner>(
+        immersed, fields_, *grid_, kernel_, partners_.empty() ? nullptr : partners_[0]->spreader.get()));
 }
 
 void Loop::step(double dt) {
     for (const auto& p : partners_) {
         p->immersed.compute_forces(dt);
-        p->locate();
-        p->spreader.spread(p->force.component[0], p->force.component[1], p->force.component[2],
-                           p->immersed.force_factor(), force_density_);
+        p->link->locate(p->position);
+        p->spreader->spread(p->force, p->immersed.force_factor(), force_density_);
     }
     fluid_.step(dt);
-    for (const auto& p : partners_) p->immersed.correct(dt, p->stencils, fluid_.state().view());
-    for (const auto& p : partners_)
-        interpolate(p->stencils, velocity_, p->v[0].data(), p->v[1].data(), p->v[2].data());
-    for (const auto& p : partners_)
-        p->immersed.advance(dt, {{p->v[0].data(), p->v[1].data(), p->v[2].data()}, p->immersed.nodes()});
+    for (const auto& p : partners_) p->immersed.correct(dt, *p->link, at_cells_);
+    for (const auto& p : partners_) p->link->interpolate(at_cells_.velocity, p->velocity());
+    for (const auto& p : partners_) p->immersed.advance(dt, p->velocity());
 }
 
 void Loop::check() {
     const std::size_t bad = fluid_.first_bad_cell();
-    if (bad < fluid_.grid().view().layout.cells()) {
-        const Vec3d at = fluid_.centre(bad);
+    if (bad < fluid_.cells())
         throw NumericalError(
-            fmt::format("fluid cell {} at ({:.3f}, {:.3f}, {:.3f}) um", bad, at.x, at.y, at.z),
+            fluid::describe_cell(fluid_, bad),
             "its density or velocity is no longer a sound number; the step is probably too long",
             "shorten numerics.step_strain, or lower numerics.lattice_viscosity");
-    }
     for (const auto& p : partners_) {
-        p->locate();
-        const std::size_t lost = p->stencils.first_lost();
-        if (lost < p->stencils.size()) p->immersed.report_lost(lost);
+        p->link->locate(p->position);
+        const std::size_t lost = p->link->first_lost();
+        if (lost < p->link->size()) p->immersed.report_lost(lost);
         p->immersed.check();
     }
 }
@@ -109,7 +123,7 @@ NodalForce Loop::nodal_force() const {
 
 void Loop::restore(const CellMemory& memory) {
     if (cells_) cells_->restore(memory);
-    for (const auto& p : partners_) p->spreader.forget();
+    for (const auto& p : partners_) p->spreader->forget();
 }
 
 }  // namespace hemoflux::coupling

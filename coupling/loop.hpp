@@ -4,18 +4,18 @@
 ///   (2) one fluid step with the balanced impulse of those forces
 ///   (3) the NEW velocity interpolated to the nodes, nodes moved  (6.47)
 /// Nodes moved with the new velocity allow twice to four times the step of a simultaneous exchange.
+/// The fluid's grid is of either kind (fluid_grid.hpp); the loop is the same.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "coupling/cell_grid.hpp"
+#include "coupling/fluid_grid.hpp"
 #include "coupling/immersed.hpp"
 #include "coupling/immersed_cells.hpp"
-#include "coupling/spread.hpp"
-#include "coupling/stencil.hpp"
 #include "exchange/field.hpp"
+#include "fluid/hex_solver.hpp"
 #include "fluid/solver.hpp"
 #include "membrane/batch.hpp"
 
@@ -48,13 +48,17 @@ struct NodalForce {
     double gross = 0;
 };
 
+/// Advances a fluid and its partners together; which they are is fixed before the first step.
 class Loop {
   public:
-    /// A loop with nothing immersed yet; the fluid must outlive it and needs a force field.
+    /// A loop with nothing immersed yet; the fluid must outlive it and needs a force field. InputError where its grid
+    /// cannot serve the kernel, once something is added.
     Loop(fluid::Solver& fluid, Kernel kernel);
+    Loop(fluid::HexSolver& fluid, Kernel kernel);
     /// A loop with membrane cells. fluid and cells must outlive it; the fluid needs a force field, and a viscosity
     /// field if nu_inside is given. Reads the nodes' positions for the centroid.
     Loop(fluid::Solver& fluid, membrane::Batch& cells, const LoopOptions& options);
+    Loop(fluid::HexSolver& fluid, membrane::Batch& cells, const LoopOptions& options);
     ~Loop();
 
     /// Adds a partner, before the first step; it must outlive the loop, and no two may have one name.
@@ -83,16 +87,20 @@ class Loop {
     /// All fields that the partners exchange.
     [[nodiscard]] const exchange::FieldTable& fields() const { return fields_; }
     /// The fluid's grid as the partners see it.
-    [[nodiscard]] const CellGrid& grid() const { return grid_; }
+    [[nodiscard]] const FluidGrid& grid() const { return *grid_; }
 
   private:
     struct Partner;
 
-    fluid::Solver& fluid_;
+    Loop(fluid::Flow& fluid, std::unique_ptr<FluidGrid> grid, Kernel kernel);
+    void add_cells(membrane::Batch& cells, const LoopOptions& options, double nu);
+
+    fluid::Flow& fluid_;
     Kernel kernel_;
-    CellGrid grid_;
+    std::unique_ptr<FluidGrid> grid_;
     exchange::FieldTable fields_;
-    exchange::FieldView velocity_, force_density_;
+    FluidFields at_cells_;
+    exchange::FieldView force_density_;
     std::unique_ptr<ImmersedCells> cells_;
     std::vector<std::unique_ptr<Partner>> partners_;
 };

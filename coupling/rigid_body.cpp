@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "coupling/interpolate.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::coupling {
@@ -38,7 +37,7 @@ void refuse_impossible(const BodySurface& surface, const BodyOptions& o) {
 
 }  // namespace
 
-RigidBody::RigidBody(BodySurface surface, const CellGrid& grid, const BodyOptions& options,
+RigidBody::RigidBody(BodySurface surface, const FluidGrid& grid, const BodyOptions& options,
                      const BodyState& start)
     : surface_(std::move(surface)),
       options_(options),
@@ -48,7 +47,7 @@ RigidBody::RigidBody(BodySurface surface, const CellGrid& grid, const BodyOption
       stiffness_(options.stiffness) {
     nodes_.place(state_);
     for (int q = 0; q < 3; ++q) {
-        density_[q] = exchange::Buffer<double>(grid.view().layout.size);
+        density_[q] = exchange::Buffer<double>(grid.field_size());
         predicted_[q] = exchange::Buffer<double>(nodes());
     }
 }
@@ -60,16 +59,14 @@ bool RigidBody::moves() const {
            norm(state_.angular_velocity) > 0;
 }
 
-void RigidBody::find_gains(double dt, const StencilSet& stencils) {
+void RigidBody::find_gains(double dt, const NodeLink& link) {
     const bool springs = options_.forcing == BodyForcing::feedback;
     if (gains_for_ == dt && (springs || !moves())) return;
     gains_for_ = dt;
     if (!springs || stiffness_ == 0) {
         nodes_.areas_to_increments();
-        const exchange::FieldView areas = nodes_.increments(), response = nodes_.velocities();
-        spreader_->spread(areas.component[0], areas.component[1], areas.component[2], 1, view(density_));
-        interpolate(stencils, view(density_), response.component[0], response.component[1],
-                    response.component[2]);
+        spreader_->spread(nodes_.increments(), 1, view(density_));
+        link.interpolate(view(density_), nodes_.velocities());
     }
     if (!springs) return nodes_.set_gains_from_response(dt);
     if (stiffness_ == 0) stiffness_ = spring_share / (dt * dt * nodes_.largest_response());
@@ -87,23 +84,18 @@ void RigidBody::exchange_momentum(double dt, const exchange::FieldView& u, bool 
     nodes_.correct(state_, u, add);
 }
 
-void RigidBody::correct(double dt, const StencilSet& stencils, const fluid::StateView& fluid) {
-    if (!spreader_) spreader_ = std::make_unique<Spreader>(stencils);
-    find_gains(dt, stencils);
+void RigidBody::correct(double dt, const NodeLink& link, const FluidFields& fluid) {
+    if (!spreader_) spreader_ = link.spreader(nullptr);
+    find_gains(dt, link);
     before_ = state_;
     if (options_.forcing == BodyForcing::feedback) return;
-    const exchange::FieldView u = nodes_.velocities(), start = view(predicted_), density = view(density_),
-                              increments = nodes_.increments();
-    const exchange::FieldView field{{fluid.q[1], fluid.q[2], fluid.q[3]}, density.size};
-    interpolate(stencils, field, start.component[0], start.component[1], start.component[2]);
+    const exchange::FieldView u = nodes_.velocities(), start = view(predicted_), density = view(density_);
+    link.interpolate(fluid.velocity, start);
     exchange_momentum(dt, start, false);
-    const auto spread = [&] {
-        spreader_->spread(increments.component[0], increments.component[1], increments.component[2], 1,
-                          density);
-    };
+    const auto spread = [&] { spreader_->spread(nodes_.increments(), 1, density); };
     for (int i = 1; i < options_.iterations; ++i) {
         spread();
-        interpolate(stencils, density, u.component[0], u.component[1], u.component[2]);
+        link.interpolate(density, u);
         nodes_.combine(start, dt);
         exchange_momentum(dt, u, true);
     }

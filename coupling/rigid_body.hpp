@@ -22,7 +22,6 @@
 #include "coupling/body_nodes.hpp"
 #include "coupling/body_surface.hpp"
 #include "coupling/immersed.hpp"
-#include "coupling/spread.hpp"
 
 namespace hemoflux::coupling {
 
@@ -52,11 +51,12 @@ struct BodyForces {
     Vec3d force{0, 0, 0}, torque{0, 0, 0};
 };
 
+/// One rigid body as a partner of the fluid: held, moved, turning freely or free.
 class RigidBody final : public Immersed {
   public:
     /// start: where the body is and its (given or first) velocities. InputError when an option is out of range or an
     /// open surface should move freely.
-    RigidBody(BodySurface surface, const CellGrid& grid, const BodyOptions& options, const BodyState& start);
+    RigidBody(BodySurface surface, const FluidGrid& grid, const BodyOptions& options, const BodyState& start);
     ~RigidBody() override;
 
     [[nodiscard]] std::string name() const override { return options_.name; }
@@ -67,7 +67,7 @@ class RigidBody final : public Immersed {
     [[nodiscard]] double force_factor() const override { return 1; }
     /// Nothing to do: the forces are those that the last step found.
     void compute_forces(double /*dt*/) override {}
-    void correct(double dt, const StencilSet& stencils, const fluid::StateView& fluid) override;
+    void correct(double dt, const NodeLink& link, const FluidFields& fluid) override;
     void advance(double dt, const exchange::FieldView& velocity) override;
     [[noreturn]] void report_lost(std::size_t node) const override;
 
@@ -88,7 +88,7 @@ class RigidBody final : public Immersed {
 
   private:
     [[nodiscard]] bool moves() const;
-    void find_gains(double dt, const StencilSet& stencils);
+    void find_gains(double dt, const NodeLink& link);
     /// Velocities that balance the sums, and the forces corrected to them.
     void exchange_momentum(double dt, const exchange::FieldView& u, bool add);
 
@@ -97,7 +97,7 @@ class RigidBody final : public Immersed {
     BodyState state_, before_;
     BodyNodes nodes_;
     exchange::Buffer<double> density_[3], predicted_[3];
-    std::unique_ptr<Spreader> spreader_;
+    std::unique_ptr<ForceSpreader> spreader_;
     double gains_for_ = 0, stiffness_ = 0, slip_ = 0;
     BodyForces on_fluid_;
 };

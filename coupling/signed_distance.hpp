@@ -20,12 +20,6 @@
 
 namespace hemoflux::coupling {
 
-/// Half-width of the band: `local_cells` times the local cell, unless `fixed` (um) is positive.
-struct HalfWidth {
-    double local_cells = 1;
-    double fixed = 0;
-};
-
 /// Triangles that are consecutive in the mesh are refused together by tiles that are far from all of them.
 inline constexpr std::size_t triangle_group = 16;
 
@@ -65,6 +59,8 @@ class SignedDistance {
     [[nodiscard]] SurfacesView view();
     /// Half-width at every vertex at the last prepare(), um; device, cells * vertices.
     [[nodiscard]] const double* half_widths() const { return vertex_half_width_.data(); }
+    /// The prepared triangles of all surfaces; device.
+    [[nodiscard]] const BandTriangle* triangles() const { return triangle_.data(); }
     [[nodiscard]] std::size_t vertices() const { return vertices_; }
     [[nodiscard]] std::size_t cells() const { return cells_; }
 

@@ -202,16 +202,16 @@ Spreader::Spreader(const StencilSet& stencils, Spreader* first)
 
 void Spreader::forget() { touched_.fill(1); }
 
-void Spreader::accelerate(double dt, const exchange::FieldView& density,
-                          const fluid::StateView& fluid) const {
+void Spreader::accelerate(double dt, const exchange::FieldView& density, const FluidFields& fluid) const {
+    const auto& u = fluid.velocity.component;
     exchange::for_each_index(
         tiles_.count(), AccelerateTile{stencils_.grid(),
                                        tiles_,
                                        first_ ? first_->touched_.data() : touched_.data(),
                                        dt,
                                        {density.component[0], density.component[1], density.component[2]},
-                                       fluid.q[0],
-                                       {fluid.q[1], fluid.q[2], fluid.q[3]}});
+                                       fluid.density.component[0],
+                                       {u[0], u[1], u[2]}});
 }
 
 void Spreader::spread(const double* fx, const double* fy, const double* fz, double factor,

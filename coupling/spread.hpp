@@ -12,7 +12,6 @@
 #include "coupling/tiles.hpp"
 #include "exchange/buffer.hpp"
 #include "exchange/field.hpp"
-#include "fluid/state.hpp"
 
 namespace hemoflux::coupling {
 
@@ -31,7 +30,7 @@ class Spreader {
     void spread(const double* fx, const double* fy, const double* fz, double factor,
                 const exchange::FieldView& density);
     /// u += dt f / rho in the cells that the last spread has reached, f the field it was given.
-    void accelerate(double dt, const exchange::FieldView& density, const fluid::StateView& fluid) const;
+    void accelerate(double dt, const exchange::FieldView& density, const FluidFields& fluid) const;
     /// Makes the next spread clear the whole field, after somebody else wrote to it.
     void forget();
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "coupling/tile_scan.hpp"
+#include "coupling/band_triangle.hpp"
 #include "coupling/triangle_rings.hpp"
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
@@ -11,57 +11,6 @@
 
 namespace hemoflux::coupling {
 namespace {
-
-/// Adds one membrane cell to the viscosity.
-struct AddCell {
-    double* nu;
-    double jump, low, high;
-    HEMOFLUX_INLINE void operator()(std::size_t at, double ratio) const {
-        const double sum = nu[at] + jump * heaviside(ratio);
-        nu[at] = sum < low ? low : (sum > high ? high : sum);
-    }
-};
-
-/// Adds the surface viscosity of one membrane cell.
-struct AddMembrane {
-    double* nu;
-    CellGridView grid;
-    double surface_nu;
-    HalfWidth half_width;
-    HEMOFLUX_INLINE void operator()(std::size_t at, double ratio) const {
-        const double slope = heaviside_slope(ratio);
-        if (!(slope > 0)) return;
-        const std::size_t from = at - grid.layout.origin, in_plane = from % grid.layout.plane;
-        const double x = grid.axis[0].width[in_plane % grid.layout.row],
-                     y = grid.axis[1].width[in_plane / grid.layout.row],
-                     z = grid.axis[2].width[from / grid.layout.plane];
-        const double local = x > y ? (x > z ? x : z) : (y > z ? y : z);
-        const double h = half_width.fixed > 0 ? half_width.fixed : half_width.local_cells * local;
-        nu[at] += surface_nu * slope / h;
-    }
-};
-
-/// Viscosity of one tile: all membrane cells in turn.
-struct ViscosityTile {
-    SurfacesView surfaces;
-    const double* nu_inside;
-    double nu_outside, low, high, surface_nu;
-    HalfWidth half_width;
-    double* nu;
-    HEMOFLUX_FN void operator()(std::size_t tile) const {
-        const TileRange r = surfaces.tiles.range(tile);
-        for (int k = r.k0; k < r.k1; ++k)
-            for (int j = r.j0; j < r.j1; ++j)
-                for (int i = 0; i < surfaces.grid.axis[0].n; ++i)
-                    nu[surfaces.grid.layout.at(i, j, k)] = nu_outside;
-        TileScan scan(surfaces, tile);
-        for (std::size_t c = 0; c < surfaces.cells; ++c)
-            scan(c, AddCell{nu, nu_inside[c] - nu_outside, low, high});
-        if (surface_nu > 0)  // after all of them, whose sum is limited
-            for (std::size_t c = 0; c < surfaces.cells; ++c)
-                scan(c, AddMembrane{nu, surfaces.grid, surface_nu, half_width});
-    }
-};
 
 /// Unit normal of vertex v: the mean of the triangles around it, weighted by area.
 struct VertexNormal {
@@ -112,15 +61,16 @@ struct InteriorViscosity::Motion {
     exchange::Reduction<exchange::Maximum> largest;
 };
 
-InteriorViscosity::InteriorViscosity(const CellGrid& grid, const std::vector<std::array<int, 3>>& triangles,
+InteriorViscosity::InteriorViscosity(const FluidGrid& grid, const std::vector<std::array<int, 3>>& triangles,
                                      std::size_t vertices, const std::vector<double>& nu_inside,
                                      double nu_outside, HalfWidth half_width, MotionLimits limits,
                                      double surface_nu)
-    : distance_(grid, triangles, vertices, nu_inside.size(), half_width),
+    : band_(grid.band({triangles, vertices, nu_inside.size()}, half_width)),
       nu_outside_(nu_outside),
       surface_nu_(surface_nu),
       half_width_(half_width),
       limits_(limits),
+      vertices_(vertices),
       triangles_(triangles.size()),
       nu_inside_(nu_inside),
       motion_(std::make_unique<Motion>()) {
@@ -145,33 +95,32 @@ InteriorViscosity::InteriorViscosity(const CellGrid& grid, const std::vector<std
 
 InteriorViscosity::~InteriorViscosity() = default;
 
-bool InteriorViscosity::update(const double* x, const double* y, const double* z, double* nu) {
+bool InteriorViscosity::update(const double* x, const double* y, const double* z, double* nu,
+                               std::size_t stride) {
     if (recomputations_ > 0) {
         const MotionOverLimit motion{{x, y, z},
                                      {position_[0].data(), position_[1].data(), position_[2].data()},
                                      {normal_[0].data(), normal_[1].data(), normal_[2].data()},
-                                     distance_.half_widths(),
+                                     band_->half_widths(),
                                      limits_};
         if (motion_->largest.sum(position_[0].size(), motion).value <= 1) return false;
     }
-    recompute(x, y, z, nu);
+    recompute(x, y, z, nu, stride);
     return true;
 }
 
-void InteriorViscosity::recompute(const double* x, const double* y, const double* z, double* nu) {
-    distance_.prepare(x, y, z);
-    const SurfacesView surfaces = distance_.view();
-    exchange::for_each_index(
-        surfaces.tiles.count(),
-        ViscosityTile{surfaces, nu_inside_.data(), nu_outside_, low_, high_, surface_nu_, half_width_, nu});
+void InteriorViscosity::recompute(const double* x, const double* y, const double* z, double* nu,
+                                  std::size_t stride) {
+    band_->prepare(x, y, z);
+    band_->viscosity({nu_inside_.data(), nu_outside_, low_, high_, surface_nu_, half_width_}, nu, stride);
     const double* from[3] = {x, y, z};
     for (int q = 0; q < 3; ++q)
         exchange::copy_on_device(position_[q].data(), from[q], position_[q].size() * sizeof(double));
     exchange::for_each_index(position_[0].size(),
-                             VertexNormal{surfaces.triangle,
+                             VertexNormal{band_->triangles(),
                                           ring_begin_.data(),
                                           ring_.data(),
-                                          distance_.vertices(),
+                                          vertices_,
                                           triangles_,
                                           {normal_[0].data(), normal_[1].data(), normal_[2].data()}});
     ++recomputations_;

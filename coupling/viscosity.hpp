@@ -21,6 +21,7 @@
 #include <memory>
 #include <vector>
 
+#include "coupling/fluid_grid.hpp"
 #include "coupling/signed_distance.hpp"
 #include "exchange/buffer.hpp"
 
@@ -52,18 +53,18 @@ class InteriorViscosity {
   public:
     /// Membranes as in SignedDistance; nu_inside has one value per membrane cell; surface_nu: surface viscosity over
     /// density (um^2 c). Viscosities must be positive, surface_nu not negative (InputError).
-    InteriorViscosity(const CellGrid& grid, const std::vector<std::array<int, 3>>& triangles,
+    InteriorViscosity(const FluidGrid& grid, const std::vector<std::array<int, 3>>& triangles,
                       std::size_t vertices, const std::vector<double>& nu_inside, double nu_outside,
                       HalfWidth half_width = {}, MotionLimits limits = {}, double surface_nu = 0);
     ~InteriorViscosity();
 
-    /// Recomputes the interior cells of the padded field nu (device) if a node of x, y, z (device, um,
-    /// cell-major) has passed a limit since the last time, and says whether it did. The first call always
+    /// Recomputes the viscosity of the fluid's cells, value i at nu[stride * i] (device), if a node of x, y, z (device,
+    /// um, cell-major) has passed a limit since the last time, and says whether it did. The first call always
     /// does. Ghost cells are left to the fluid solver.
-    bool update(const double* x, const double* y, const double* z, double* nu);
+    bool update(const double* x, const double* y, const double* z, double* nu, std::size_t stride = 1);
     /// Recomputes whether needed or not. For a restart: with the positions() of the checkpoint, so that field
     /// and later decisions are those of the uninterrupted run.
-    void recompute(const double* x, const double* y, const double* z, double* nu);
+    void recompute(const double* x, const double* y, const double* z, double* nu, std::size_t stride = 1);
     /// Node positions (x, y, z; host, um) of the last recomputation, the state that a checkpoint must hold;
     /// empty before the first.
     [[nodiscard]] std::array<std::vector<double>, 3> positions() const;
@@ -73,12 +74,12 @@ class InteriorViscosity {
   private:
     struct Motion;
 
-    SignedDistance distance_;
+    std::unique_ptr<MembraneBand> band_;
     double nu_outside_, low_, high_, surface_nu_;
     HalfWidth half_width_;
     MotionLimits limits_;
-    std::size_t triangles_, recomputations_ = 0;
-    /// Corners of triangles at each vertex, as in TriangleRings.
+    std::size_t vertices_, triangles_, recomputations_ = 0;
+    /// Triangles around each vertex: vertex v has ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1] - 1].
     exchange::Buffer<int> ring_begin_, ring_;
     exchange::Buffer<double> nu_inside_;
     /// Positions and unit normals at the last recomputation.

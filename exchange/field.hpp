@@ -11,11 +11,13 @@ namespace hemoflux::exchange {
 /// Whether a field has one value per place or three.
 enum class Shape { scalar = 1, vector = 3 };
 
-/// A trivially copyable window on a field in device memory, one array per component (structure of arrays).
+/// A trivially copyable window on a field in device memory: value i of component c is component[c][stride * i].
 struct FieldView {
     double* component[3] = {nullptr, nullptr, nullptr};
     /// Values per component, ghost and padding values included.
     std::size_t size = 0;
+    /// 1 where every component is an array of its own, the length of a record where components lie side by side.
+    std::size_t stride = 1;
 };
 
 /// What a field is: name ("velocity"), shape and unit in the solver's non-dimensional system ("c", "1e-11

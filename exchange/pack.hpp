@@ -27,6 +27,12 @@ using Pack = std::experimental::native_simd<double>;
 using SinglePack = std::experimental::native_simd<float>;
 inline constexpr std::size_t pack_lanes = Pack::size();
 #endif
+#if defined(HEMOFLUX_PACK_LANES)
+static_assert(
+    pack_lanes == HEMOFLUX_PACK_LANES,
+    "the installed hemoflux was built for registers of another width: build and install it on this machine, "
+    "or both sides with HEMOFLUX_NATIVE=OFF");
+#endif
 
 /// Number and type of the values that `Value` carries side by side.
 template <class Value>

@@ -79,6 +79,7 @@ struct SegmentSum {
     }
 };
 
+/// A function of i as one of (segment, i), whose segment is always the first.
 template <class Function>
 struct OneSegment {
     Function f;

@@ -14,6 +14,7 @@
 
 namespace hemoflux::fluid {
 
+/// I/dt - J of the compact residual, in blocks of 4 x 4, with its incomplete factors.
 class CompactMatrix {
   public:
     /// volume: of the cells. fill: level of fill of the factors; empty: default_fill().

@@ -43,9 +43,24 @@ DuctFlow::DuctFlow(std::size_t axis, double drive, std::array<double, 3> lower, 
     largest_ = std::abs(speed({middle_[0], middle_[1], middle_[2]}));
 }
 
+DuctFlow DuctFlow::round(std::size_t axis, double drive, double radius) {
+    DuctFlow flow;
+    flow.axis_ = axis;
+    flow.across_ = (axis + 1) % 3;
+    flow.along_ = (axis + 2) % 3;
+    flow.drive_ = drive;
+    flow.a_ = radius;
+    flow.round_ = true;
+    flow.mean_ = drive * radius * radius / 8;
+    flow.rate_ = std::abs(drive) * radius / 2;
+    flow.largest_ = std::abs(drive) * radius * radius / 4;
+    return flow;
+}
+
 double DuctFlow::speed(const Vec3d& x) const {
     const double at[3] = {x.x - middle_[0], x.y - middle_[1], x.z - middle_[2]};
     const double s = at[across_];
+    if (round_) return drive_ * (a_ * a_ - s * s - at[along_] * at[along_]) / 4;
     double u = (a_ * a_ - s * s) / 2;
     if (b_ > 0) {
         double sign = 1;

@@ -21,6 +21,10 @@ class DuctFlow {
     DuctFlow(std::size_t axis, double drive, std::array<double, 3> lower, std::array<double, 3> length,
              std::array<bool, 3> periodic);
 
+    /// The flow in a round pipe of this radius about the line through the origin along `axis`:
+    /// u = drive (R^2 - r^2) / 4.
+    [[nodiscard]] static DuctFlow round(std::size_t axis, double drive, double radius);
+
     /// Velocity along the axis at a point.
     [[nodiscard]] double speed(const Vec3d& x) const;
     [[nodiscard]] double mean_speed() const { return mean_; }
@@ -31,10 +35,13 @@ class DuctFlow {
     [[nodiscard]] std::size_t axis() const { return axis_; }
 
   private:
-    std::size_t axis_, across_, along_;  ///< of the flow, of the short side, of the long side
-    double drive_, a_, b_ = 0;           ///< b_ = 0: plates
+    DuctFlow() = default;
+
+    std::size_t axis_ = 0, across_ = 1, along_ = 2;  ///< of the flow, of the short side, of the long side
+    double drive_ = 0, a_ = 0, b_ = 0;               ///< b_ = 0: plates
+    bool round_ = false;                             ///< a_ is then the radius
     std::array<double, 3> middle_{};
-    double mean_, largest_, rate_;
+    double mean_ = 0, largest_ = 0, rate_ = 0;
 };
 
 }  // namespace hemoflux::fluid

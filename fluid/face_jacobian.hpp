@@ -16,6 +16,7 @@ struct JacobianFace {
     Value weight_left, delta, nu;
 };
 
+/// Derivatives of the flux through one face with respect to the states on its two sides.
 template <class Value>
 struct FaceJacobian {
     JacobianFace<Value> face;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "exchange/field.hpp"
 #include "exchange/vec3.hpp"
 #include "fluid/compact_model.hpp"
 
@@ -54,6 +55,7 @@ class Flow {
     /// The time at which the state stands, 0 at first. Boundary conditions and forces that change in time are taken at
     /// this time by evaluate(), and at the times of the stages by step().
     virtual void set_time(double t) = 0;
+    [[nodiscard]] virtual double time() const = 0;
     /// Evaluates R(Q) = dQ/dt.
     virtual void evaluate() = 0;
     /// One time step of the solver's scheme; the time moves on by dt.
@@ -77,6 +79,9 @@ class Flow {
 
     /// The faces and boundary conditions as an implicit method sees them.
     [[nodiscard]] virtual CompactModel compact_model() const = 0;
+
+    /// Lays density, velocity, and force and viscosity where used, on the table as fluid.*.
+    virtual void offer(exchange::FieldTable& table) = 0;
 
     /// Residual evaluations since construction.
     [[nodiscard]] virtual std::size_t evaluations() const = 0;

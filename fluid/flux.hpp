@@ -100,19 +100,19 @@ HEMOFLUX_INLINE SideSums<Value> side_sums(const SideNodes<Value>& s, const SideP
     const Value e0 = Sign > 0 ? s.a[1] - trace : -(s.a[1] + trace);
     const Value e1 = Sign > 0 ? s.a[2] - s.d1[1] : s.a[2] + s.d1[1];
     const Value e2 = Sign > 0 ? s.a[3] - s.d2[1] : s.a[3] + s.d2[1];
-    const Value squares = (e0 * e0 + e1 * e1) + (e2 * e2 + e12 * e12);
+    const Value squares = ((e0 * e0 + e1 * e1) + e2 * e2) + e12 * e12;
     // [...] / 3 = 1/3 + b0 + s1 b1 + s2 b2 + s1 s2 b12
     const Value b0 = e0 + (R(1.5) * ig) * squares - R(0.5) * (p.aa + p.dd);
     const Value g = R(1) + (R(3) * ig) * e0, e12_3 = (R(3) * ig) * e12;
-    const Value b1 = e1 * g - e12_3 * e2 + p.a1;
-    const Value b2 = e2 * g - e12_3 * e1 + p.a2;
-    const Value b12 = (R(3) * ig) * (e1 * e2) - e12 * g - p.d12;
+    const Value b1 = (p.a1 + e1 * g) - e12_3 * e2;
+    const Value b2 = (p.a2 + e2 * g) - e12_3 * e1;
+    const Value b12 = ((R(3) * ig) * (e1 * e2) - p.d12) - e12 * g;
     // the axis node's bracket: 1 + 3/2 axis
     const Value along = Sign > 0 ? s.a[1] : -s.a[1];
     const Value axis = along * (R(2) + (R(3) * ig) * along) - p.aa;
     const Value rho = density(s.a[0]);
     const Value bracket = R(1.0 / 3) + b0;
-    return {(rho * (b0 + axis) + s.a[0]) - (s.d1[0] * b1 + s.d2[0] * b2),
+    return {((s.a[0] + rho * (b0 + axis)) - s.d1[0] * b1) - s.d2[0] * b2,
             rho * b1 - s.d1[0] * bracket - s.d2[0] * b12, rho * b2 - s.d2[0] * bracket - s.d1[0] * b12};
 }
 
@@ -137,7 +137,7 @@ HEMOFLUX_INLINE SideSums<Value> plane_sums(const PlaneNodes<Value>& p, double in
     const Value rest = (R(-0.25) * ig) * (nn + (tt[0] + tt[1]));
     Value rho = p.c[0];
     if constexpr (exchange::is_single<Value>) rho = rho + R(2);
-    return {(rho * ((even1 + even2) + rest) + (p.c[0] + p.c[0])) - (p.m1[0] * odd1 + p.m2[0] * odd2),
+    return {(((p.c[0] + p.c[0]) + rho * ((even1 + even2) + rest)) - p.m1[0] * odd1) - p.m2[0] * odd2,
             rho * odd1 - p.m1[0] * (R(2.0 / 3) + even1), rho * odd2 - p.m2[0] * (R(2.0 / 3) + even2)};
 }
 
@@ -163,20 +163,20 @@ HEMOFLUX_INLINE Quad<Value> flux_of_nodes(const SideNodes<Value>& left, const Si
     Value rho = excess;
     if constexpr (exchange::is_single<Value>) rho = rho + R(6);
     const Value inv_rho = (Preconditioned ? R(inv_gamma) : R(1)) / rho;
-    const Value carry = mn * inv_rho;
-    const Value eq_nn = R(1.0 / 3) * excess + carry * mn, eq_nt1 = carry * mt1, eq_nt2 = carry * mt2;
-    const Value of_pre = sixth * relax, of_eq = sixth - of_pre;
-    Quad<Value> flux{{sixth * mn, of_eq * eq_nn + of_pre * pre_nn, of_eq * eq_nt1 + of_pre * pre_nt1,
-                      of_eq * eq_nt2 + of_pre * pre_nt2}};
+    // Pi = (1/6 - r) Pi_eq + r Pi_pre = Pi_eq / 6 + r (Pi_pre - Pi_eq), both times 6; Pi_eq = carry m, and the pressure
+    const Value carry = mn * inv_rho, of_pre = sixth * relax, of_eq = sixth - of_pre;
+    const Value pressure = (R(1.0 / 3) * of_eq) * excess;
     if constexpr (Force) {
         // The impulse changes what is convected, not the viscous stress: Pi_pre knows nothing of it.
-        const Value new_n = flux.c[0] + impulse[0], new_carry = R(6) * new_n * inv_rho;
-        flux.c[1] = flux.c[1] + (new_carry * new_n - carry * flux.c[0]);
-        flux.c[2] = flux.c[2] + ((new_carry - carry) * (sixth * mt1) + new_carry * impulse[1]);
-        flux.c[3] = flux.c[3] + ((new_carry - carry) * (sixth * mt2) + new_carry * impulse[2]);
-        flux.c[0] = new_n;
+        const Value mass = sixth * mn + impulse[0], new_carry = R(6) * mass * inv_rho;
+        return {{mass, (pressure + of_pre * (pre_nn - carry * mn)) + new_carry * mass,
+                 of_pre * (pre_nt1 - carry * mt1) + new_carry * (sixth * mt1 + impulse[1]),
+                 of_pre * (pre_nt2 - carry * mt2) + new_carry * (sixth * mt2 + impulse[2])}};
+    } else {
+        const Value convected = of_eq * carry;
+        return {{sixth * mn, (pressure + of_pre * pre_nn) + convected * mn,
+                 of_pre * pre_nt1 + convected * mt1, of_pre * pre_nt2 + convected * mt2}};
     }
-    return flux;
 }
 
 namespace detail {
@@ -184,7 +184,8 @@ namespace detail {
 /// Scalar products of a side's nodes, divided by gamma.
 template <bool Preconditioned, class Value>
 HEMOFLUX_INLINE SideProducts<Value> products(const SideNodes<Value>& s, double inverse_gamma) {
-    SideProducts<Value> p{dot(s.a, s.a), dot(s.a, s.d1), dot(s.a, s.d2), dot(s.d1, s.d1) + dot(s.d2, s.d2),
+    SideProducts<Value> p{dot(s.a, s.a), dot(s.a, s.d1), dot(s.a, s.d2),
+                          ((dot(s.d1, s.d1) + s.d2[1] * s.d2[1]) + s.d2[2] * s.d2[2]) + s.d2[3] * s.d2[3],
                           dot(s.d1, s.d2)};
     if constexpr (Preconditioned) {
         const exchange::Scalar<Value> ig(inverse_gamma);
@@ -204,7 +205,8 @@ HEMOFLUX_INLINE Quad<Value> face_flux(const FaceSide<Value>& left, const FaceSid
     using R = exchange::Scalar<Value>;
     const Value reach_left = face.half_left - face.delta, reach_right = face.delta - face.half_right;
     // The weight of one side is the distance to the other, so that both gradients have the same factor, bend.
-    const Value twice_left = R(2) * face.weight_left, bend = twice_left * face.half_left;
+    const Value twice_left = R(2) * face.weight_left, twice_right = R(2) - twice_left,
+                bend = twice_left * face.half_left;
     SideNodes<Value> l, r;
     PlaneNodes<Value> plane;
     for (int c = 0; c < 4; ++c) {
@@ -214,10 +216,10 @@ HEMOFLUX_INLINE Quad<Value> face_flux(const FaceSide<Value>& left, const FaceSid
         r.d1[c] = face.delta * right.t1[c];
         r.d2[c] = face.delta * right.t2[c];
         r.a[c] = right.phi[c] + reach_right * right.n[c];
-        plane.c[c] = (right.phi[c] + right.phi[c]) +
-                     (twice_left * (left.phi[c] - right.phi[c]) + bend * (left.n[c] - right.n[c]));
-        plane.m1[c] = (r.d1[c] + r.d1[c]) + twice_left * (l.d1[c] - r.d1[c]);
-        plane.m2[c] = (r.d2[c] + r.d2[c]) + twice_left * (l.d2[c] - r.d2[c]);
+        plane.c[c] =
+            (twice_left * left.phi[c] + twice_right * right.phi[c]) + bend * (left.n[c] - right.n[c]);
+        plane.m1[c] = twice_left * l.d1[c] + twice_right * r.d1[c];
+        plane.m2[c] = twice_left * l.d2[c] + twice_right * r.d2[c];
     }
     Value relax = R(3) * nu * face.inv_delta;
     if constexpr (Preconditioned) relax = relax * R(inv_gamma);

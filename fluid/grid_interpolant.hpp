@@ -18,6 +18,7 @@ enum class Border {
     periodic  ///< ghost cells are nodes like all others
 };
 
+/// A field between the cell centres of a rectilinear grid.
 class GridInterpolant {
   public:
     /// padded: values in the grid's layout with ghost cells filled as `borders` (x-, x+, y-, y+, z-, z+) say.

@@ -80,9 +80,10 @@ class HexBoundary {
 
 /// Fills the ghost cells of `values`, records of four.
 void fill_ghost_values(const HexView& grid, const HexBorderView& border, double* values);
-/// Fills the ghost cells of `records`, values and gradients; the ghost values must be filled.
-void fill_ghost_records(const HexView& grid, const HexBorderView& border, const double* values,
-                        double* records);
+/// Fills the ghost cells of `records`, values and gradients, of some border faces in the order of the sweep; the ghost
+/// values must be filled.
+void fill_ghost_records(const HexView& grid, const HexBorderView& border, HexRange ghosts,
+                        const double* values, double* records);
 /// Fills the ghost cells of a field of records of four with the border cells' values.
 void copy_to_ghosts(const HexView& grid, double* values);
 

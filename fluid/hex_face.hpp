@@ -1,4 +1,4 @@
-/// Loads what the faces of an unstructured grid need and calls face_flux() in the frame of each face.
+/// Loads what the faces of an unstructured grid need and calls flux_of_nodes() in the frame of each face.
 #pragma once
 
 #include "exchange/records.hpp"
@@ -35,6 +35,13 @@ struct HexFace {
 
     HEMOFLUX_INLINE Value field(std::size_t k) const { return exchange::load<Value>(grid.field(first, k)); }
 
+    /// Asks for the face data of a pack to come, one line a field.
+    HEMOFLUX_INLINE void prefetch() const {
+        if constexpr (exchange::lanes < Value >> 1)
+            for (std::size_t k = 0; k < face_fields; ++k)
+                exchange::prefetch(grid.field(first + 4 * face_block, k));
+    }
+
     HEMOFLUX_INLINE Rotation<Value> rotation() const {
         Rotation<Value> r;
         for (std::size_t a = 0; a < 3; ++a) {
@@ -48,52 +55,72 @@ struct HexFace {
         return r;
     }
 
-    /// One side, in the face's frame, moved along the face; reach: first of the three fields of that side.
-    HEMOFLUX_INLINE FaceSide<Value> side(const double* records, const std::uint32_t* cells,
-                                         const Rotation<Value>& r, std::size_t reach) const {
-        Value v[16];
-        exchange::load_records(records, cells + first, v);
-        FaceSide<Value> s;
+    /// One side's nodes in the face's frame, and its values at the face's centre, in x, y, z. Sign: +1 left, -1 right;
+    /// step: delta times n, t1, t2; reach: first of the three fields of that side.
+    template <int Sign>
+    HEMOFLUX_INLINE void side(const double* records, const std::uint32_t* index, const Rotation<Value>& step,
+                              const Rotation<Value>& r, std::size_t reach, SideNodes<Value>& s,
+                              Value (&centre)[4]) const {
+        Value v[16], to[3];
+        exchange::load_records(records, index + first, v);
+        for (std::size_t a = 0; a < 3; ++a)
+            to[a] = Sign > 0 ? field(reach + a) - step.n[a] : field(reach + a) + step.n[a];
         for (int c = 0; c < 4; ++c) {
-            Value gradient[3] = {v[4 + c], v[8 + c], v[12 + c]};
-            r.apply(gradient[0], gradient[1], gradient[2]);
-            s.phi[c] = v[c];
-            s.n[c] = gradient[0], s.t1[c] = gradient[1], s.t2[c] = gradient[2];
+            const Value &x = v[4 + c], &y = v[8 + c], &z = v[12 + c];
+            s.a[c] = ((v[c] + to[0] * x) + to[1] * y) + to[2] * z;
+            s.d1[c] = step.t1[0] * x + step.t1[1] * y + step.t1[2] * z;
+            s.d2[c] = step.t2[0] * x + step.t2[1] * y + step.t2[2] * z;
+            centre[c] = Sign > 0 ? ((s.a[c] + step.n[0] * x) + step.n[1] * y) + step.n[2] * z
+                                 : ((s.a[c] - step.n[0] * x) - step.n[1] * y) - step.n[2] * z;
         }
-        r.apply(s.phi[1], s.phi[2], s.phi[3]);
-        r.apply(s.n[1], s.n[2], s.n[3]);
-        r.apply(s.t1[1], s.t1[2], s.t1[3]);
-        r.apply(s.t2[1], s.t2[2], s.t2[3]);
-        const Value along1 = field(reach + 1), along2 = field(reach + 2);
-        for (int c = 0; c < 4; ++c) s.phi[c] = s.phi[c] + along1 * s.t1[c] + along2 * s.t2[c];
-        return s;
+        r.apply(s.a[1], s.a[2], s.a[3]);
+        r.apply(s.d1[1], s.d1[2], s.d1[3]);
+        r.apply(s.d2[1], s.d2[2], s.d2[3]);
     }
 
-    /// Fluxes of mass and momentum x, y, z through the whole faces, from left to right. force: null, or records of four.
-    template <bool Force, bool Preconditioned>
+    /// Fluxes of mass and momentum x, y, z through the whole faces, from left to right. force: null, or records of force
+    /// and viscosity.
+    template <bool Force, bool Viscosity, bool Preconditioned>
     HEMOFLUX_INLINE void flux(const double* records, const double* force, const FlowParameters& parameters,
                               double inv_gamma, Value (&out)[4]) const {
         const Rotation<Value> r = rotation();
-        FaceGeometry<Value> face;
-        face.half_left = field(face_reach_left);
-        face.half_right = -field(face_reach_right);
-        face.weight_left = field(face_weight);
-        face.delta = field(face_delta);
-        face.inv_delta = field(face_inverse_delta);
-        Value f[3] = {Value(0.0), Value(0.0), Value(0.0)};
+        const Value delta = field(face_delta), left_share = 2.0 * field(face_weight),
+                    right_share = 2.0 - left_share;
+        Rotation<Value> step;
+        for (std::size_t a = 0; a < 3; ++a) {
+            step.n[a] = delta * r.n[a];
+            step.t1[a] = delta * r.t1[a];
+            step.t2[a] = delta * r.t2[a];
+        }
+        Value impulse[3] = {};
         if constexpr (Force) {
             for (std::size_t a = 0; a < 3; ++a) {
                 const Value left = lanes_of(force + a, grid.left + first),
                             right = lanes_of(force + a, grid.right + first);
-                f[a] = right + face.weight_left * (left - right) + parameters.uniform_force[a];
-                if constexpr (Preconditioned) f[a] = f[a] * inv_gamma;
+                impulse[a] = 0.5 * (left_share * left + right_share * right) + parameters.uniform_force[a];
+                if constexpr (Preconditioned) impulse[a] = impulse[a] * inv_gamma;
             }
-            r.apply(f[0], f[1], f[2]);
+            step.apply(impulse[0], impulse[1], impulse[2]);
         }
-        const FaceSide<Value> left = side(records, grid.left, r, face_reach_left);
-        const FaceSide<Value> right = side(records, grid.right, r, face_reach_right);
-        const Quad<Value> q =
-            face_flux<Force, Preconditioned>(left, right, face, Value(parameters.nu), f, inv_gamma);
+        Value nu = Value(parameters.nu);
+        if constexpr (Viscosity)
+            nu = 0.5 * (lanes_of(force + 3, grid.left + first) + lanes_of(force + 3, grid.right + first));
+        SideNodes<Value> left, right;
+        PlaneNodes<Value> plane;
+        Value of_left[4], of_right[4];
+        side<1>(records, grid.left_record, step, r, face_reach_left, left, of_left);
+        side<-1>(records, grid.right_record, step, r, face_reach_right, right, of_right);
+        for (int c = 0; c < 4; ++c) {
+            plane.c[c] = left_share * of_left[c] + right_share * of_right[c];
+            plane.m1[c] = left_share * left.d1[c] + right_share * right.d1[c];
+            plane.m2[c] = left_share * left.d2[c] + right_share * right.d2[c];
+        }
+        r.apply(plane.c[1], plane.c[2], plane.c[3]);
+        Value relax = 3.0 * nu * field(face_inverse_delta);
+        if constexpr (Preconditioned) relax = relax * inv_gamma;
+        const Quad<Value> q = flux_of_nodes<Force, Preconditioned>(
+            left, detail::products<Preconditioned>(left, inv_gamma), right,
+            detail::products<Preconditioned>(right, inv_gamma), plane, relax, impulse, inv_gamma);
         const Value area = field(face_area);
         for (int c = 0; c < 4; ++c) out[c] = area * q.c[c];
         r.invert(out[1], out[2], out[3]);

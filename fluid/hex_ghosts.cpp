@@ -9,7 +9,7 @@ namespace {
 struct Border {
     HexView grid;
     HexBorderView border;
-    HEMOFLUX_INLINE std::size_t cell(std::size_t b) const { return grid.left[grid.interior + b]; }
+    HEMOFLUX_INLINE std::size_t cell(std::size_t b) const { return grid.left[grid.border_face[b]]; }
     HEMOFLUX_INLINE std::size_t ghost(std::size_t b) const { return grid.cells + b; }
 };
 
@@ -43,12 +43,14 @@ struct GhostValues : Border {
 
 /// Density and the three velocity components are treated side by side, in one register.
 struct GhostRecords : Border {
+    std::size_t first;
     const double* values;
     double* records;
-    HEMOFLUX_FN void operator()(std::size_t b) const {
+    HEMOFLUX_FN void operator()(std::size_t k) const {
+        const std::size_t b = grid.border_order[first + k], f = grid.border_face[b];
         const HexBorderFace& face = border.face[b];
-        const double* in = records + 16 * cell(b) + 4;
-        double* out = records + 16 * ghost(b);
+        const double* in = records + 16 * std::size_t{grid.left_record[f]} + 4;
+        double* out = records + 16 * std::size_t{grid.right_record[f]};
         const double* n = face.normal;
         const Four g[3] = {load_four(in), load_four(in + 4), load_four(in + 8)};
         const Four twice = 2.0 * (n[0] * g[0] + n[1] * g[1] + n[2] * g[2]);
@@ -82,15 +84,15 @@ void fill_ghost_values(const HexView& grid, const HexBorderView& border, double*
     exchange::for_each_index(border.count, GhostValues{{grid, border}, values}, exchange::Cost::cheap);
 }
 
-void fill_ghost_records(const HexView& grid, const HexBorderView& border, const double* values,
-                        double* records) {
-    exchange::for_each_index(border.count, GhostRecords{{grid, border}, values, records},
+void fill_ghost_records(const HexView& grid, const HexBorderView& border, HexRange ghosts,
+                        const double* values, double* records) {
+    exchange::for_each_index(ghosts.last - ghosts.first,
+                             GhostRecords{{grid, border}, ghosts.first, values, records},
                              exchange::Cost::cheap);
 }
 
 void copy_to_ghosts(const HexView& grid, double* values) {
-    const std::size_t count = grid.faces - grid.interior;
-    exchange::for_each_index(count, CopyToGhosts{{grid, {}}, values}, exchange::Cost::cheap);
+    exchange::for_each_index(grid.border, CopyToGhosts{{grid, {}}, values}, exchange::Cost::cheap);
 }
 
 }  // namespace hemoflux::fluid

@@ -19,6 +19,7 @@ struct BorderValues {
     std::vector<double> value;        ///< fields side by side: value[face number here * fields + field]
 };
 
+/// Fields between the cell centres of an unstructured grid.
 class HexInterpolant {
   public:
     /// cell: values of `fields` fields, cell[c * fields + f]. The grid must outlive the interpolant.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 #include "fluid/hex_time_step.hpp"
 #include "fluid/hex_update.hpp"
@@ -18,31 +20,35 @@ const SolverOptions& checked(const SolverOptions& o) {
     if (!(o.gamma > 0 && o.gamma <= 1))
         throw InputError(fmt::format("gamma {}", o.gamma), "the preconditioning parameter lies in (0, 1]",
                          "use 1 for no preconditioning");
-    if (o.with_viscosity)
-        throw InputError("a viscosity that varies in space", "unstructured grids have one viscosity only",
-                         "use a rectilinear grid for red cells");
     if (o.scheme == Scheme::factored)
         throw InputError("scheme factored", "it needs rows of cells, which an unstructured grid has not",
                          "use rk4 or euler, or a rectilinear grid");
     return o;
 }
 
+/// Viscosity stands in the records of the body force.
+SolverOptions with_place_for_viscosity(SolverOptions o) {
+    o.with_force = o.with_force || o.with_viscosity;
+    return o;
+}
+
 }  // namespace
 
 HexSolver::HexSolver(meshing::HexGrid grid, const HexPatches& patches, const SolverOptions& options)
-    : options_(checked(options)),
+    : options_(with_place_for_viscosity(checked(options))),
       grid_(std::move(grid)),
       geometry_(grid_, options.gradient, largest_delta(options), idle_faces(grid_, patches)),
       boundary_(grid_, patches),
-      flux_(4 * geometry_.padded_faces()),
       rate_(4 * grid_.cells()) {
     boundary_.check_mass_balance();
     const std::size_t all = grid_.cells() + grid_.border_faces();
     std::vector<double> rest(4 * all, 0.0);
     for (std::size_t i = 0; i < all; ++i) rest[4 * i] = 1;
     values_ = exchange::Buffer<double>(rest);
-    records_ = exchange::Buffer<double>(16 * all);
-    if (options_.with_force) force_ = exchange::Buffer<double>(4 * all);
+    if (!options_.with_force) return;
+    std::vector<double> coefficients(4 * all, 0.0);
+    for (std::size_t i = 0; i < all; ++i) coefficients[4 * i + 3] = options_.nu;
+    force_ = exchange::Buffer<double>(coefficients);
 }
 
 std::vector<std::string> HexSolver::patches() const {
@@ -74,7 +80,28 @@ void HexSolver::set_values(int component, const std::vector<double>& values) {
 void HexSolver::set_force(int component, const std::vector<double>& values) {
     if (!options_.with_force) throw std::logic_error("HexSolver::set_force: this flow has no body force");
     set_column(force_, component, values);
-    copy_to_ghosts(geometry_.view(), force_.data());
+}
+void HexSolver::set_viscosity(const std::vector<double>& values) {
+    if (!options_.with_viscosity)
+        throw std::logic_error("HexSolver::set_viscosity: this flow has one viscosity");
+    set_column(force_, 3, values);
+}
+std::vector<double> HexSolver::coefficient(int component) const {
+    if (component < 3 ? !options_.with_force : !options_.with_viscosity) return {};
+    return column(force_, component);
+}
+
+void HexSolver::offer(exchange::FieldTable& table) {
+    using exchange::Shape;
+    const std::size_t size = cells();
+    double *q = values_.data(), *f = force_.data();
+    table.offer("fluid", {"density", Shape::scalar, "rho_0"}, {{q, nullptr, nullptr}, size, 4});
+    table.offer("fluid", {"velocity", Shape::vector, "c"}, {{q + 1, q + 2, q + 3}, size, 4});
+    if (options_.with_force)
+        table.offer("fluid", {"force_density", Shape::vector, "rho_0 c^2 / um"},
+                    {{f, f + 1, f + 2}, size, 4});
+    if (options_.with_viscosity)
+        table.offer("fluid", {"viscosity", Shape::scalar, "um c"}, {{f + 3, nullptr, nullptr}, size, 4});
 }
 
 FlowParameters HexSolver::flow_parameters() const {
@@ -84,15 +111,21 @@ FlowParameters HexSolver::flow_parameters() const {
             options_.gamma,
             {f[0] + wave.x, f[1] + wave.y, f[2] + wave.z},
             options_.with_force,
-            false};
+            options_.with_viscosity};
 }
 
 HexFields HexSolver::fields() const {
-    return {values_.data(), force_.data(), records_.data(), flux_.data(), rate_.data()};
+    return {values_.data(), force_.data(), records_.data(), flux_.data(), rate_.data(), rings_};
 }
 
 void HexSolver::evaluate() {
-    evaluate_hex_residual(geometry_.view(), boundary_.view(), flow_parameters(), fields());
+    const auto rings = exchange::on_gpu ? std::size_t{1} : static_cast<std::size_t>(exchange::threads());
+    if (rings != rings_) {
+        records_ = exchange::Buffer<double>(16 * geometry_.records() * rings);
+        flux_ = exchange::Buffer<double>(4 * geometry_.fluxes() * rings);
+        rings_ = rings;
+    }
+    evaluate_hex_residual(geometry_, boundary_.view(), flow_parameters(), fields());
     ++evaluations_;
 }
 
@@ -140,7 +173,7 @@ void HexSolver::runge_kutta(double dt, const double* local_dt, double advance) {
 
 double HexSolver::largest_step(double speed) const {
     return stable_step(grid_, largest_delta(options_), idle_faces(grid_, boundary_.patches()),
-                       options_.scheme, options_.nu, speed, options_.gamma);
+                       options_.scheme, std::max(options_.nu, options_.largest_nu), speed, options_.gamma);
 }
 
 void HexSolver::set_local_steps(double sigma, double c) {
@@ -173,8 +206,11 @@ std::size_t HexSolver::first_bad_cell() { return hex_first_bad(cells(), values_.
 
 std::vector<std::array<Vec3d, 4>> HexSolver::gradients() const {
     fill_ghost_values(geometry_.view(), boundary_.view(), values_.data());
-    evaluate_gradients(geometry_.view(), fields());
-    const std::vector<double> records = records_.to_host();
+    exchange::Buffer<double> all_records(16 * cells());
+    HexFields whole = fields();
+    whole.records = all_records.data();
+    evaluate_gradients(geometry_.whole_view(), whole);
+    const std::vector<double> records = all_records.to_host();
     std::vector<std::array<Vec3d, 4>> all(cells());
     for (std::size_t i = 0; i < cells(); ++i)
         for (std::size_t c = 0; c < 4; ++c)

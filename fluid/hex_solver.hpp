@@ -16,8 +16,9 @@ namespace hemoflux::fluid {
 /// Cells are numbered as in the grid; HexGrid::original gives their numbers in the mesh.
 class HexSolver final : public Flow {
   public:
-    /// Throws InputError when options or patches are impossible: beyond what Solver refuses, a viscosity that varies in
-    /// space and the factored scheme, which are for rectilinear grids, and cells too distorted for a gradient.
+    /// Throws InputError when options or patches are impossible: beyond what Solver refuses, the factored scheme, which is
+    /// for rectilinear grids, and cells too distorted for a gradient. A viscosity that varies in space has its place
+    /// beside the body force and brings that with it.
     HexSolver(meshing::HexGrid grid, const HexPatches& patches, const SolverOptions& options);
 
     [[nodiscard]] std::size_t cells() const override { return grid_.cells(); }
@@ -29,9 +30,13 @@ class HexSolver final : public Flow {
     /// Replaces one component (0 to 2) of the body force per volume; values.size() must be cells() (std::length_error).
     /// std::logic_error unless the options say with_force.
     void set_force(int component, const std::vector<double>& values);
+    /// Replaces the viscosity, which starts as options().nu. std::logic_error unless the options say with_viscosity.
+    void set_viscosity(const std::vector<double>& values);
+    /// One component of the body force per volume (0 to 2), or the viscosity (3), at all cells; empty without it.
+    [[nodiscard]] std::vector<double> coefficient(int component) const;
 
     void set_time(double t) override;
-    [[nodiscard]] double time() const { return time_; }
+    [[nodiscard]] double time() const override { return time_; }
     void evaluate() override;
     void step(double dt) override;
     [[nodiscard]] std::size_t evaluations() const override { return evaluations_; }
@@ -46,6 +51,8 @@ class HexSolver final : public Flow {
     /// std::logic_error before set_local_steps().
     void read_local_steps(double* dt) const override;
     [[nodiscard]] CompactModel compact_model() const override;
+
+    void offer(exchange::FieldTable& table) override;
 
     ResidualNorm residual_norm() override;
     double mean_density() override;
@@ -78,10 +85,10 @@ class HexSolver final : public Flow {
     meshing::HexGrid grid_;
     HexGeometry geometry_;
     HexBoundary boundary_;
-    /// Records and fluxes are scratch that every evaluation fills, and so are the ghost cells behind the values.
-    mutable exchange::Buffer<double> values_, records_, flux_, rate_;
-    exchange::Buffer<double> force_, base_, sum_, local_dt_;
-    std::size_t evaluations_ = 0;
+    /// Records and fluxes are scratch of every evaluation, and so are the ghost cells behind values and force.
+    mutable exchange::Buffer<double> values_, force_, records_, flux_, rate_;
+    exchange::Buffer<double> base_, sum_, local_dt_;
+    std::size_t evaluations_ = 0, rings_ = 0;
     double time_ = 0, stage_time_ = 0;
 };
 

@@ -27,12 +27,17 @@ std::vector<WallFace> HexSolver::wall_faces(const std::string& patch) const {
     for (const auto& p : grid_.patches)
         if (p.name == patch) range = &p;
     if (!range) throw InputError("patch " + patch, "the mesh has no such patch", "name one of its patches");
-    const HexView& view = geometry_.view();
+    const HexView view = geometry_.whole_view();
+    exchange::Buffer<double> all_records(16 * (cells() + grid_.border_faces())), all_fluxes(4 * view.fluxes);
+    HexFields whole = fields();
+    whole.records = all_records.data();
+    whole.flux = all_fluxes.data();
     fill_ghost_values(view, boundary_.view(), values_.data());
-    evaluate_gradients(view, fields());
-    fill_ghost_records(view, boundary_.view(), values_.data(), records_.data());
-    evaluate_fluxes(view, boundary_.view(), flow_parameters(), fields());
-    const std::vector<double> records = records_.to_host(), flux = flux_.to_host();
+    evaluate_gradients(view, whole);
+    evaluate_fluxes(view, boundary_.view(), flow_parameters(), whole);
+    const std::vector<double> records = all_records.to_host(), fluxes = all_fluxes.to_host();
+    std::vector<std::uint32_t> number(view.border);
+    exchange::copy_to_host(number.data(), view.border_face, number.size() * sizeof(std::uint32_t));
     const std::vector<Vec3d> ghosts = ghost_centres(grid_);
     std::vector<WallFace> all;
     for (std::size_t f = range->first; f < range->first + range->count; ++f) {
@@ -43,7 +48,8 @@ std::vector<WallFace> HexSolver::wall_faces(const std::string& patch) const {
             extrapolate(&records[16 * ghost], grid_.face_centre[f] - ghosts[ghost - grid_.cells()]);
         const double density = (inner.density + outer.density) / 2;
         const Vec3d velocity = 0.5 * (inner.velocity + outer.velocity);
-        const Vec3d momentum{flux[4 * f + 1], flux[4 * f + 2], flux[4 * f + 3]};
+        const double* flux = &fluxes[4 * std::size_t{number[f - grid_.interior_faces()]}];
+        const Vec3d momentum{flux[1], flux[2], flux[3]};
         // gamma times the flux is p n + rho u (u.n) less the viscous stress, with p = gamma rho / 3.
         const double gamma = options_.gamma;
         const Vec3d convected = (density * dot(velocity, area)) * velocity;

@@ -123,6 +123,17 @@ struct DifferenceProduct : Group {
     }
 };
 
+struct AddDifference : Group {
+    const float* v;
+    const double *moved, *base;
+    double factor;
+    float* out;
+    HEMOFLUX_FN void operator()(std::size_t g) const {
+        for (std::size_t i = first(g); i < last(g); ++i)
+            out[i] = static_cast<float>(static_cast<double>(v[i]) + factor * (moved[i] - base[i]));
+    }
+};
+
 struct Scaled : Group {
     const double* r;
     double scale[4];
@@ -222,6 +233,11 @@ void difference_product(const double* z, const double* dt, const double* moved, 
     each_group(cells,
                DifferenceProduct{
                    {cells}, z, dt, moved, base, 1 / step, {scale[0], scale[1], scale[2], scale[3]}, w});
+}
+
+void add_difference(const float* v, const double* moved, const double* base, double factor, float* out,
+                    std::size_t n) {
+    each_group(n, AddDifference{{n}, v, moved, base, factor, out});
 }
 
 void scaled(const double* r, const double (&scale)[4], std::size_t cells, double* out) {

@@ -66,6 +66,9 @@ void perturb(const double* q, const double* z, double step, double* out, std::si
 /// All but dt have 4 cells values.
 void difference_product(const double* z, const double* dt, const double* moved, const double* base,
                         double step, const double (&scale)[4], std::size_t cells, double* w);
+/// out <- v + factor (moved - base), in single precision
+void add_difference(const float* v, const double* moved, const double* base, double factor, float* out,
+                    std::size_t n);
 /// out <- scale_c r
 void scaled(const double* r, const double (&scale)[4], std::size_t cells, double* out);
 /// v <- factor v

@@ -8,6 +8,7 @@
 
 namespace hemoflux::fluid {
 
+/// Finds the nearest of a fixed set of points.
 class NearestPoint {
   public:
     /// points must not be empty.

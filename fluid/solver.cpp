@@ -194,7 +194,7 @@ void Solver::local_step() {
     step_rk4(time_, 0, 1, local_dt_.data());
 }
 
-void Solver::offer(exchange::FieldTable& table) const {
+void Solver::offer(exchange::FieldTable& table) {
     using exchange::Shape;
     const StateView& v = state_.view();
     const std::size_t size = grid_.view().layout.size;

@@ -54,7 +54,7 @@ class Solver final : public Flow {
     void set_values(int component, const std::vector<double>& values) override;
 
     void set_time(double t) override;
-    [[nodiscard]] double time() const { return time_; }
+    [[nodiscard]] double time() const override { return time_; }
     /// Force and viscosity, if used, are taken as they stand in their fields. The factored scheme takes what changes
     /// in time at the end of the step.
     void step(double dt) override;
@@ -92,8 +92,7 @@ class Solver final : public Flow {
     [[nodiscard]] const State& residual() const { return residual_; }
     [[nodiscard]] std::size_t evaluations() const override { return evaluations_; }
 
-    /// Lays density, velocity, and force and viscosity where used, on the table as fluid.*.
-    void offer(exchange::FieldTable& table) const;
+    void offer(exchange::FieldTable& table) override;
 
   private:
     [[nodiscard]] FlowParameters flow_parameters() const;

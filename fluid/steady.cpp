@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "exchange/error.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::fluid {
 namespace {
@@ -58,10 +59,8 @@ void check_finite(Flow& flow, const SteadyRecord& record) {
     if (std::isfinite(record.measure) && record.measure < 1e3 && record.iteration % 100 != 0) return;
     const std::size_t bad = flow.first_bad_cell();
     if (bad == flow.cells() && std::isfinite(record.measure)) return;
-    const std::size_t cell = bad < flow.cells() ? bad : 0;
-    const Vec3d x = flow.centre(cell);
     throw NumericalError(
-        fmt::format("cell {} at ({:.6g}, {:.6g}, {:.6g})", cell, x.x, x.y, x.z),
+        describe_cell(flow, bad < flow.cells() ? bad : 0),
         fmt::format("density or speed left its range in iteration {} on the way to the steady state",
                     record.iteration),
         "lower the Courant number, or raise tau_floor or the viscosity");
@@ -69,25 +68,34 @@ void check_finite(Flow& flow, const SteadyRecord& record) {
 
 }  // namespace
 
-SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer) {
+SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer,
+                               Constraint* constraint) {
     if (!(options.tolerance > 0))
         throw InputError(fmt::format("tolerance {}", options.tolerance), "a residual never falls to zero",
                          "give a positive tolerance");
     const double start = processor_seconds();
     const std::size_t before = flow.evaluations();
     const bool implicit = options.method == SteadyMethod::newton;
+    if (constraint && !implicit)
+        throw InputError("local time steps with a constraint",
+                         "its forces are unknowns that only the implicit method solves for",
+                         "use the implicit method");
     const std::size_t patience = implicit ? options.newton_patience : options.patience;
     Measure measure(flow, options.criterion);
     std::optional<NewtonKrylov> newton;
     SteadyResult result;
     std::size_t lowest_at = 0;
+    if (constraint && flow.largest_speed() == 0) {  // differences of residuals need a scale of velocity
+        flow.set_local_steps(options.sigma, options.c);
+        flow.local_step();
+    }
     for (std::size_t iteration = 1; iteration <= options.most_iterations; ++iteration) {
         SteadyRecord record;
         record.iteration = iteration;
         bool moved = true;
-        if (implicit && iteration > 1) {
+        if (constraint || (implicit && iteration > 1)) {
             if (!newton) {
-                newton.emplace(flow, options.newton);
+                newton.emplace(flow, options.newton, constraint);
                 result.bytes = newton->bytes();
             }
             const NewtonKrylov::Step step = newton->step();
@@ -100,7 +108,10 @@ SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const S
             record.courant = options.sigma;
         }
         record.residual = flow.residual_norm();
-        record.measure = moved ? measure(record.residual) : result.last.measure;
+        if (constraint)
+            record.measure = newton->relative_residual();
+        else
+            record.measure = moved ? measure(record.residual) : result.last.measure;
         record.evaluations = flow.evaluations() - before;
         record.seconds = processor_seconds() - start;
         check_finite(flow, record);

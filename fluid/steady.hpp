@@ -49,6 +49,7 @@ struct SteadyRecord {
 /// How a steady run ended.
 enum class SteadyEnd { converged, most_iterations, stalled, interrupted };
 
+/// What a steady run came to.
 struct SteadyResult {
     SteadyEnd end = SteadyEnd::most_iterations;
     SteadyRecord last;
@@ -59,9 +60,11 @@ struct SteadyResult {
 /// Called after every iteration; returns false to stop.
 using SteadyObserver = std::function<bool(const SteadyRecord&)>;
 
-/// Iterates until the criterion is met. Throws NumericalError, naming the cell, when the flow is no longer finite or its
+/// Iterates until the criterion is met. With a constraint the method must be newton, and what is compared with the
+/// tolerance is the residual of all equations together over its value at the start, whatever the criterion. Throws NumericalError, naming the cell, when the flow is no longer finite or its
 /// density or speed is out of range, and InputError for a tolerance that is not positive.
-SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer = {});
+SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer = {},
+                               Constraint* constraint = nullptr);
 
 /// The way a run ended, in a few words.
 std::string describe(SteadyEnd end);

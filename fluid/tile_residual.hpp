@@ -49,6 +49,7 @@ struct TileResidual {
     struct Fluxes {
         alignas(64) Real values[4][Cells::pitch];
     };
+    /// Cells i0 to i1 - 1 of a row.
     struct Range {
         std::ptrdiff_t i0, i1;
     };

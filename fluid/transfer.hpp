@@ -9,6 +9,7 @@
 
 namespace hemoflux::fluid {
 
+/// A flow known at points, as a function of place.
 class PointFlow {
   public:
     /// One value a point. Throws InputError when there are none, or not as many values as points.

@@ -14,6 +14,8 @@ const Vec3d& at(const std::vector<Vec3d>& positions, int v) { return positions[s
 
 Eigen::Vector3d eigen(const Vec3d& a) { return {a.x, a.y, a.z}; }
 
+double taylor(double longest, double shortest) { return (longest - shortest) / (longest + shortest); }
+
 /// Nodes and weights of the midpoint rule in angle and of Gauss-Legendre in height over one octant.
 struct Octant {
     static constexpr int points = 32;
@@ -58,17 +60,21 @@ ShapeMoments shape_moments(const Triangles& triangles, const std::vector<Vec3d>&
     s.centroid = origin + (1 / s.volume) * volume_moment;
     s.reduced_volume = 6 * std::sqrt(pi) * s.volume / std::pow(s.area, 1.5);
     const Vec3d middle = origin + (1 / s.area) * area_moment;
-    Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d g = Eigen::Matrix3d::Zero(), solid = Eigen::Matrix3d::Zero();
     for (const auto& t : triangles) {
         const Vec3d a = at(positions, t[0]) - middle, b = at(positions, t[1]) - middle,
                     c = at(positions, t[2]) - middle;
         const double weight = norm(cross(b - a, c - a)) / 24;
         for (const Vec3d& p : {a, b, c, a + b + c}) g += weight * eigen(p) * eigen(p).transpose();
+        const Vec3d to_middle = middle - s.centroid, d = a + to_middle, e = b + to_middle, f = c + to_middle;
+        const double share = dot(d, cross(e, f)) / 120;
+        for (const Vec3d& p : {d, e, f, d + e + f}) solid += share * eigen(p) * eigen(p).transpose();
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(g / s.area);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(g / s.area), inside(solid / s.volume);
     for (int i = 0; i < 3; ++i) {
         const auto to = static_cast<std::size_t>(i);
         s.moments[to] = solver.eigenvalues()[2 - i];
+        s.volume_moments[to] = inside.eigenvalues()[2 - i];
         const Eigen::Vector3d axis = solver.eigenvectors().col(2 - i);
         s.axes[to] = {axis.x(), axis.y(), axis.z()};
     }
@@ -113,7 +119,25 @@ std::array<double, 3> ellipsoid_half_axes(const std::array<double, 3>& moments) 
 
 double taylor_deformation(const ShapeMoments& moments) {
     const auto axes = ellipsoid_half_axes(moments.moments);
-    return (axes[0] - axes[2]) / (axes[0] + axes[2]);
+    return taylor(axes[0], axes[2]);
+}
+
+std::array<double, 3> inertia_half_axes(const ShapeMoments& moments) {
+    std::array<double, 3> axes{};
+    for (std::size_t i = 0; i < 3; ++i) axes[i] = std::sqrt(5 * moments.volume_moments[i]);
+    return axes;
+}
+
+double taylor_deformation_volume(const ShapeMoments& moments) {
+    const auto axes = inertia_half_axes(moments);
+    return taylor(axes[0], axes[2]);
+}
+
+double taylor_deformation_extent(const std::vector<Vec3d>& positions, const Vec3d& centroid) {
+    const auto [least, greatest] = std::minmax_element(
+        positions.begin(), positions.end(),
+        [&](const Vec3d& a, const Vec3d& b) { return norm(a - centroid) < norm(b - centroid); });
+    return taylor(norm(*greatest - centroid), norm(*least - centroid));
 }
 
 double inclination(const ShapeMoments& moments) {

@@ -8,6 +8,12 @@
 ///   G_i = a_i^2 int n_i^2 w dOmega / int w dOmega,
 ///   w = (b^2 c^2 n_x^2 + a^2 c^2 n_y^2 + a^2 b^2 n_z^2)^{1/2}
 /// over the unit sphere. Taylor's deformation is D = (longest - shortest)/(longest + shortest).
+///
+/// Volume gyration tensor (of the enclosed volume, about its centroid c), exact for flat triangles by tetrahedra from c:
+///   G = 1/V int (r - c)(r - c)^T dV,   per tetrahedron  V_k/20 [sum_i p_i p_i^T + (sum_i p_i)(sum_i p_i)^T]
+/// with p_i = R_i - c. The ellipsoid with the same inertia has a_i^2 = 5 G_i; studies of capsules take D from it, or
+/// from the greatest and least distance of the membrane from the centroid. All three agree on an ellipsoid only: an
+/// end that is drawn out counts most in the distances, least in the volume.
 #pragma once
 
 #include <array>
@@ -29,6 +35,8 @@ struct ShapeMoments {
     /// Principal moments of the surface gyration tensor, um^2, greatest first, and their unit axes.
     std::array<double, 3> moments{};
     std::array<Vec3d, 3> axes{};
+    /// Principal moments of the volume gyration tensor, um^2, greatest first.
+    std::array<double, 3> volume_moments{};
 };
 
 /// Moments of a closed surface of outward triangles; positions in um.
@@ -43,6 +51,16 @@ std::array<double, 3> ellipsoid_moments(const std::array<double, 3>& half_axes);
 
 /// Taylor's deformation of the equivalent ellipsoid, 0 for a sphere.
 double taylor_deformation(const ShapeMoments& moments);
+
+/// Half-axes (um), greatest first, of the ellipsoid with the inertia of the enclosed volume.
+std::array<double, 3> inertia_half_axes(const ShapeMoments& moments);
+
+/// Taylor's deformation of the ellipsoid with the inertia of the enclosed volume (Ramanujan and Pozrikidis 1998).
+double taylor_deformation_volume(const ShapeMoments& moments);
+
+/// Taylor's deformation from the greatest and the least distance of a vertex from the volume centroid, exactly 0 for the
+/// vertices of a sphere. Of a capsule; in a biconcave cell the least distance is that to a dimple.
+double taylor_deformation_extent(const std::vector<Vec3d>& positions, const Vec3d& centroid);
 
 /// Angle in degrees, in (-90, 90], from +x to the longest principal axis projected on the xy plane. Where
 /// that axis is within 30 degrees of z, as one of the two equal axes of a disc may be, the next one counts.
@@ -68,8 +86,22 @@ struct Rectangle {
     [[nodiscard]] double deformation_index() const { return (length - width) / (length + width); }
 };
 
-/// The rectangle of least area that bounds the x and y coordinates (section 7.3), by an edge of their convex hull.
+/// The rectangle of least area that bounds the x and y coordinates (section 7.3), by an edge of their convex hull. Of a
+/// slender ellipse it has the axes; of a nearly round one its area hardly depends on its angle (by 2 D^2 of it for
+/// D = deformation_index()), so that on a coarse mesh it may lie askew and tell too little.
 Rectangle minimum_rectangle(const std::vector<Vec3d>& positions);
+
+/// The ellipse with the area moments of a cell's shadow on the xy plane.
+struct ShadowEllipse {
+    double longest = 0, shortest = 0;  ///< half-axes, um
+
+    /// Deformation index (7.1) of its axes.
+    [[nodiscard]] double deformation_index() const { return (longest - shortest) / (longest + shortest); }
+};
+
+/// Of the convex hull of the x and y coordinates: half-axes 2 m_i^{1/2} with m_i the principal second moments of its area
+/// over the area. InputError as minimum_rectangle().
+ShadowEllipse shadow_ellipse(const std::vector<Vec3d>& positions);
 
 /// Measures of a disc about its axis, the shortest principal axis, um.
 struct DiscMeasures {

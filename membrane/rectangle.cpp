@@ -36,15 +36,44 @@ std::vector<Point> convex_hull(std::vector<Point> points) {
     return hull;
 }
 
-}  // namespace
-
-Rectangle minimum_rectangle(const std::vector<Vec3d>& positions) {
+std::vector<Point> hull_of_shadow(const std::vector<Vec3d>& positions) {
     std::vector<Point> points;
     for (const Vec3d& p : positions) points.push_back({p.x, p.y});
-    const std::vector<Point> hull = convex_hull(points);
+    std::vector<Point> hull = convex_hull(points);
     if (hull.size() < 3)
-        throw InputError("a cell whose shadow on the xy plane has no area", "no rectangle bounds it",
-                         "Give a closed surface");
+        throw InputError("a cell whose shadow on the xy plane has no area",
+                         "neither rectangle nor ellipse fits it", "Give a closed surface");
+    return hull;
+}
+
+}  // namespace
+
+ShadowEllipse shadow_ellipse(const std::vector<Vec3d>& positions) {
+    const std::vector<Point> hull = hull_of_shadow(positions);
+    const Point origin = hull.front();
+    double area = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+    for (std::size_t i = 1; i + 1 < hull.size(); ++i) {
+        const double ax = hull[i][0] - origin[0], ay = hull[i][1] - origin[1];
+        const double bx = hull[i + 1][0] - origin[0], by = hull[i + 1][1] - origin[1];
+        const double part = 0.5 * (ax * by - ay * bx);  // of the triangle origin, a, b
+        area += part;
+        x += part * (ax + bx) / 3;
+        y += part * (ay + by) / 3;
+        xx += part * (ax * ax + ax * bx + bx * bx) / 6;
+        yy += part * (ay * ay + ay * by + by * by) / 6;
+        xy += part * (2 * (ax * ay + bx * by) + ax * by + bx * ay) / 12;
+    }
+    x /= area;
+    y /= area;
+    xx = xx / area - x * x;
+    yy = yy / area - y * y;
+    xy = xy / area - x * y;
+    const double middle = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
+    return {.longest = 2 * std::sqrt(middle + half), .shortest = 2 * std::sqrt(middle - half)};
+}
+
+Rectangle minimum_rectangle(const std::vector<Vec3d>& positions) {
+    const std::vector<Point> hull = hull_of_shadow(positions);
     Rectangle best;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < hull.size(); ++i) {

@@ -13,6 +13,7 @@
 
 namespace hemoflux::meshing {
 
+/// Size and resolution of a cubic cavity.
 struct CavityShape {
     double edge = 10;   ///< L
     int cells = 90480;  ///< about

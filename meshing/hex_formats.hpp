@@ -12,6 +12,9 @@ namespace hemoflux::meshing {
 HexMesh read_msh(const std::string& file);
 HexMesh read_vtu(const std::string& file);
 
+/// The whole content of a file. FormatError when it cannot be read.
+std::string file_text(const std::string& file);
+
 /// FormatError where the file cannot be written.
 void write_msh(const std::string& file, const HexMesh& mesh);
 void write_vtu(const std::string& file, const HexMesh& mesh);

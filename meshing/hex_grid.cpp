@@ -62,7 +62,9 @@ class Assembly {
     }
 
     void measure_cells() {
+        grid_.nodes = mesh_.nodes;
         for (const std::size_t old : grid_.original) {
+            grid_.corners.push_back(mesh_.cells[old]);
             const std::array<Quad, 6> quads = cell_quads(mesh_, old);
             const Solid solid = hexahedron(quads);
             if (!(solid.volume > 0))
@@ -182,14 +184,16 @@ class Assembly {
         for (std::size_t c = 0; c <= cells; ++c) grid_.first_face[c] = static_cast<std::uint32_t>(6 * c);
         grid_.face.resize(6 * cells);
         grid_.outward.resize(6 * cells);
+        grid_.side.resize(6 * cells);
         std::vector<std::uint32_t> next(grid_.first_face.begin(), grid_.first_face.end() - 1);
-        const auto add = [&](std::uint32_t cell, std::size_t face, signed char sign) {
+        const auto add = [&](std::uint32_t cell, std::size_t face, signed char sign, std::uint32_t side) {
+            grid_.side[next[cell]] = static_cast<unsigned char>(side % 6);
             grid_.face[next[cell]] = static_cast<std::uint32_t>(face);
             grid_.outward[next[cell]++] = sign;
         };
         for (std::size_t f = 0; f < left_side_.size(); ++f) {
-            add(grid_.left[f], f, 1);
-            if (right_side_[f] != none) add(grid_.right[f], f, -1);
+            add(grid_.left[f], f, 1, left_side_[f]);
+            if (right_side_[f] != none) add(grid_.right[f], f, -1, right_side_[f]);
         }
     }
 

@@ -36,6 +36,10 @@ struct HexGrid {
     /// two opposite faces. A direction in which the cell is the only one across the domain is left out.
     std::vector<double> aspect;
 
+    /// The nodes of the mesh (um), and per cell its eight in the order of VTK_HEXAHEDRON.
+    std::vector<Vec3d> nodes;
+    std::vector<std::array<std::uint32_t, 8>> corners;
+
     /// Per face: the cells on its two sides. On the border right = cells() + (face - interior_faces()).
     std::vector<std::uint32_t> left, right;
     /// Per face: area vector from left to right (um^2), centre of area (um; that of the left cell's side where
@@ -52,6 +56,8 @@ struct HexGrid {
     /// A face by which a cell is its own neighbour is listed twice, +1 then -1.
     std::vector<std::uint32_t> first_face, face;
     std::vector<signed char> outward;
+    /// Beside `face`: which of hex_faces of the cell it is; side ^ 1 is opposite.
+    std::vector<unsigned char> side;
 
     /// Patches that are not glued, in the order of the mesh.
     std::vector<Patch> patches;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "exchange/error.hpp"
@@ -70,6 +71,14 @@ void drop_unused_nodes(HexMesh& mesh) {
 
 }  // namespace
 
+std::string file_text(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in.is_open() || in.bad())
+        throw FormatError("it cannot be read: " + std::generic_category().message(errno));
+    return text;
+}
+
 void check_hex_extension(const fs::path& path) { format_of(path); }
 
 HexMesh read_hex_mesh(const fs::path& path, double scale) {
@@ -91,19 +100,25 @@ HexMesh read_hex_mesh(const fs::path& path, double scale) {
 
 void write_hex_mesh(const fs::path& path, const HexMesh& mesh) {
     const Format& format = format_of(path);
+    // beside the file and then renamed, so that nothing truncated stays behind and an older file is lost last
+    const fs::path whole = path.parent_path() / fmt::format(".tmp-{}", path.filename().string());
+    std::string why;
     {
-        const std::ofstream file(path, std::ios::binary | std::ios::app);
-        if (!file)
-            throw FileError("mesh file " + path.string(),
-                            "it cannot be written: " + std::generic_category().message(errno),
-                            "Check the folder and its permissions");
+        const std::ofstream file(whole, std::ios::binary);
+        if (!file) why = std::generic_category().message(errno);
     }
+    std::error_code error;
     try {
-        format.write(path.string(), mesh);
-    } catch (const FormatError& error) {
-        throw FileError("mesh file " + path.string(), std::string("it cannot be written: ") + error.what(),
-                        "Check the space left on the disk");
+        if (why.empty()) format.write(whole.string(), mesh);
+        if (why.empty()) fs::rename(whole, path, error);
+        if (error) why = error.message();
+    } catch (const FormatError& failed) {
+        why = failed.what();
     }
+    if (why.empty()) return;
+    fs::remove(whole, error);
+    throw FileError("mesh file " + path.string(), "it cannot be written: " + why,
+                    "Check the folder, its permissions and the space left on the disk");
 }
 
 }  // namespace hemoflux::meshing

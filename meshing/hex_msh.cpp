@@ -7,6 +7,7 @@
 
 #include "meshing/gmsh_session.hpp"
 #include "meshing/hex_formats.hpp"
+#include "meshing/msh_check.hpp"
 
 namespace hemoflux::meshing {
 namespace {
@@ -51,20 +52,38 @@ void read_elements(int type, int entity, const Numbers& numbers,
     }
 }
 
+/// Not asked of gmsh (getElementProperties): that computes with its own Eigen, which crashes where a program holds
+/// another Eigen compiled for wider registers.
+std::string name_of_type(int type) {
+    switch (type) {
+        case 2:
+            return "Triangle 3";
+        case quadrangle:
+            return "Quadrilateral 4";
+        case 4:
+            return "Tetrahedron 4";
+        case hexahedron:
+            return "Hexahedron 8";
+        case 6:
+            return "Prism 6";
+        case 7:
+            return "Pyramid 5";
+        default:
+            return fmt::format("number {} of the format", type);
+    }
+}
+
 /// Refuses elements other than `wanted` among those of this dimension on an entity (-1: on all).
 void allow_only(int wanted, int dimension, int entity, const std::string& where) {
     std::vector<int> types;
     gmsh::model::mesh::getElementTypes(types, dimension, entity);
     for (const int type : types) {
         if (type == wanted) continue;
-        std::string name;
-        int dim = 0, order = 0, nodes = 0, primary = 0;
-        std::vector<double> local;
-        gmsh::model::mesh::getElementProperties(type, name, dim, order, nodes, local, primary);
         std::vector<std::size_t> tags, unused;
         gmsh::model::mesh::getElementsByType(type, tags, unused, entity);
         if (!tags.empty())
-            throw FormatError(fmt::format("{} {} elements of type {}", where, tags.size(), name));
+            throw FormatError(
+                fmt::format("{} {} elements of type {}", where, tags.size(), name_of_type(type)));
     }
 }
 
@@ -119,6 +138,7 @@ void add_mesh(const HexMesh& mesh) {
 }  // namespace
 
 HexMesh read_msh(const std::string& file) {
+    check_msh(file_text(file));
     return with_gmsh([&file] {
         HexMesh mesh;
         gmsh::open(file);
@@ -136,6 +156,7 @@ void write_msh(const std::string& file, const HexMesh& mesh) {
         gmsh::option::setNumber("Mesh.Binary", 1);
         add_mesh(mesh);
         gmsh::write(file);
+        check_msh(file_text(file));  // gmsh does not say when the disk is full
     });
 }
 

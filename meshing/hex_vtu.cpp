@@ -13,10 +13,15 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <cerrno>
 #include <cmath>
+#include <fstream>
 #include <map>
+#include <new>
+#include <system_error>
 
 #include "meshing/hex_formats.hpp"
+#include "meshing/vtk_check.hpp"
 #include "meshing/vtk_listener.hpp"
 
 namespace hemoflux::meshing {
@@ -82,13 +87,21 @@ HexMesh sort_cells(vtkUnstructuredGrid* data) {
 }  // namespace
 
 HexMesh read_vtu(const std::string& file) {
+    const std::string text = file_text(file);
+    check_vtk(text, "UnstructuredGrid");
+    const VtkSilence silence;
     vtkNew<VtkListener> listener;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->AddObserver(vtkCommand::ErrorEvent, listener);
     reader->SetParserErrorObserver(listener);
     reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
-    reader->SetFileName(file.c_str());
-    reader->Update();
+    reader->ReadFromInputStringOn();
+    reader->SetInputString(text);
+    try {
+        reader->Update();
+    } catch (const std::bad_alloc&) {
+        throw FormatError("it claims more values than memory holds");
+    }
     if (!listener->first().empty()) throw FormatError(listener->first());
     vtkUnstructuredGrid* data = reader->GetOutput();
     HexMesh mesh = sort_cells(data);
@@ -129,11 +142,15 @@ void write_vtu(const std::string& file, const HexMesh& mesh) {
     vtkNew<vtkXMLUnstructuredGridWriter> writer;
     writer->AddObserver(vtkCommand::ErrorEvent, listener);
     writer->SetInputData(data);
-    writer->SetFileName(file.c_str());
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
+    writer->WriteToOutputStringOn();  // VTK does not always say when the disk is full
     if (writer->Write() == 0 || !listener->first().empty())
         throw FormatError(listener->first().empty() ? "VTK does not say why" : listener->first());
+    const std::string text = writer->GetOutputString();
+    std::ofstream out(file, std::ios::binary);
+    out.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
+    if (!out) throw FormatError(std::generic_category().message(errno));
 }
 
 }  // namespace hemoflux::meshing

@@ -12,6 +12,7 @@ namespace hemoflux::meshing {
 
 /// Quadrilaterals, each turning counter-clockwise, and the named parts of their border.
 struct PlaneMesh {
+    /// A named part of the border: its edges, as pairs of nodes.
     struct Side {
         std::string name;
         std::vector<std::array<std::uint32_t, 2>> edges;

@@ -89,12 +89,23 @@ SurfaceMesh read_surface(const fs::path& path) {
 
 void write_surface(const fs::path& path, const SurfaceMesh& mesh) {
     const std::string text = format_of(path).print(mesh);
+    // beside the file and then renamed, so that nothing truncated stays behind; a device or pipe is written as it is
+    std::error_code ignored;
+    const bool there = fs::exists(path, ignored);
+    const fs::path target = there ? fs::canonical(path, ignored) : path;
+    const bool straight = there && !fs::is_regular_file(target, ignored);
+    const fs::path whole =
+        straight ? target : target.parent_path() / fmt::format(".{}.tmp", target.filename().string());
     errno = 0;
-    std::ofstream out(path, std::ios::binary);
+    std::ofstream out(whole, std::ios::binary);
     if (out) out.write(text.data(), static_cast<std::streamsize>(text.size())).flush();
-    if (!out)
-        throw FileError("surface file " + path.string(), "it cannot be written: " + reason_of(errno),
-                        "Check that the folder exists, is writable and has space left");
+    std::error_code error(out ? 0 : errno != 0 ? errno : EIO, std::generic_category());
+    out.close();
+    if (!error && !straight) fs::rename(whole, target, error);
+    if (!error) return;
+    if (!straight) fs::remove(whole, ignored);
+    throw FileError("surface file " + path.string(), "it cannot be written: " + error.message(),
+                    "Check that the folder exists, is writable and has space left");
 }
 
 }  // namespace hemoflux::meshing

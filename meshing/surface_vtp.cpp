@@ -11,11 +11,14 @@
 #include <cstddef>
 
 #include "meshing/surface_formats.hpp"
+#include "meshing/vtk_check.hpp"
 #include "meshing/vtk_listener.hpp"
 
 namespace hemoflux::meshing {
 
 SurfaceMesh parse_vtp(const std::string& text) {
+    check_vtk(text, "PolyData");
+    const VtkSilence silence;
     vtkNew<VtkListener> listener;
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->AddObserver(vtkCommand::ErrorEvent, listener);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <vtkCommand.h>
+#include <vtkLogger.h>
+#include <vtkOutputWindow.h>
 
 #include <string>
 
@@ -22,13 +24,35 @@ class VtkListener : public vtkCommand {
   private:
     /// "ERROR: In file, line n\nvtkClass (0x...): what\n\n" -> "what"
     static std::string said(const std::string& text) {
-        const std::size_t begin = text.find("): ");
-        if (begin == std::string::npos) return text;
-        const std::size_t end = text.find('\n', begin);
-        return text.substr(begin + 3, end == std::string::npos ? end : end - begin - 3);
+        const std::size_t colon = text.find("): ");
+        const std::size_t begin = colon == std::string::npos ? 0 : colon + 3;
+        std::string line = text.substr(begin, text.find('\n', begin) - begin);
+        while (!line.empty() && line.back() == '.') line.pop_back();
+        return line;
     }
 
     std::string first_;
+};
+
+/// While it lives, VTK prints nothing: some of its objects cannot be listened to.
+class VtkSilence {
+  public:
+    VtkSilence()
+        : mode_(vtkOutputWindow::GetInstance()->GetDisplayMode()),
+          verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
+        vtkOutputWindow::GetInstance()->SetDisplayModeToNever();
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+    }
+    ~VtkSilence() {
+        vtkOutputWindow::GetInstance()->SetDisplayMode(mode_);
+        vtkLogger::SetStderrVerbosity(verbosity_);
+    }
+    VtkSilence(const VtkSilence&) = delete;
+    VtkSilence& operator=(const VtkSilence&) = delete;
+
+  private:
+    int mode_;
+    vtkLogger::Verbosity verbosity_;
 };
 
 }  // namespace hemoflux::meshing

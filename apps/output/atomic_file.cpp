@@ -16,8 +16,9 @@ namespace {
 
 FileError cannot_write(const std::filesystem::path& path, int error) {
     return {"cannot write " + path.string(), std::strerror(error),
-            error == ENOSPC || error == EDQUOT ? "Free some space or choose another folder with --output"
-                                               : "Check that the folder exists and that you may write there"};
+            error == ENOSPC || error == EDQUOT || error == EFBIG
+                ? "Free some space or choose another folder with --output"
+                : "Check that the folder exists and that you may write there"};
 }
 
 /// An open descriptor of the temporary file, which is removed unless it was renamed.

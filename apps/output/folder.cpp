@@ -30,8 +30,10 @@ void prove_writable(const fs::path& path) {
     try {
         write_file(probe, "probe\n");
     } catch (const FileError& error) {
-        throw FileError("the output folder " + path.string() + " is not writable", error.what(),
-                        "Choose another folder with --output");
+        const std::string why = error.what();
+        throw FileError("the output folder " + path.string() + " is not writable",
+                        why.substr(0, why.find(". ")),
+                        "Choose another folder with --output, or free some space");
     }
     fs::remove(probe);
 }
@@ -49,15 +51,31 @@ void remove_run(const fs::path& path) {
     fs::remove(marker, error);
 }
 
+/// A file that a run was writing when it was killed.
+bool is_unfinished(const std::string& name) {
+    return name.starts_with('.') && (name.ends_with(".tmp") || name.starts_with(".probe-"));
+}
+
+/// Whether a folder holds nothing but unfinished files: of a run that was killed before it had written its case.
+bool begun(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_directory(path, error) || fs::is_empty(path, error)) return false;
+    return std::all_of(fs::directory_iterator(path), fs::directory_iterator(),
+                       [](const fs::directory_entry& entry) {
+                           return entry.is_regular_file() && is_unfinished(entry.path().filename().string());
+                       });
+}
+
 }  // namespace
 
 bool is_run_file(const std::string& name) {
     constexpr std::string_view fixed[] = {
-        "resolved.toml", "summary.json",     "history.csv",      "stretch.csv",   "shapes.csv", "moduli.csv",
-        "recovery.csv",  "errors.csv",       "calibration.csv",  "thickness.csv", "log.txt",    "fluid.pvd",
-        "cells.pvd",     "centreline_u.csv", "centreline_v.csv", "wall.csv",      "fields.vtr", "fields.vtu"};
+        "resolved.toml", "summary.json", "history.csv", "stretch.csv",      "shapes.csv",
+        "moduli.csv",    "recovery.csv", "errors.csv",  "calibration.csv",  "thickness.csv",
+        "log.txt",       "fluid.pvd",    "cells.pvd",   "centreline_u.csv", "centreline_v.csv",
+        "wall.csv",      "fields.vtr",   "fields.vtu",  "report.html"};
     if (std::find(std::begin(fixed), std::end(fixed), name) != std::end(fixed)) return true;
-    if (name.starts_with('.') && name.ends_with(".tmp")) return true;
+    if (is_unfinished(name)) return true;
 
     const auto dot = name.rfind('.'), bar = name.rfind('_');
     if (dot == std::string::npos || bar == std::string::npos || bar + 1 >= dot) return false;
@@ -73,7 +91,7 @@ bool is_run_file(const std::string& name) {
 }
 
 OutputFolder::OutputFolder(fs::path path, Folder mode) : path_(std::move(path)) {
-    const bool run = fs::exists(resolved());
+    const bool run = fs::exists(resolved()) || (mode == Folder::fresh && begun(path_));
     if (mode == Folder::restart && !run)
         throw InputError("cannot restart from " + path_.string(), "it holds no run (no resolved.toml)",
                          "Give the output folder of the run that is to be continued");

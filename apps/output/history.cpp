@@ -38,7 +38,7 @@ void check_columns(const std::vector<std::string>& columns) {
 
 InputError malformed(const std::filesystem::path& path, std::size_t number, const std::string& why) {
     return {fmt::format("malformed table {}", path.string()), fmt::format("line {}: {}", number, why),
-            "Restore the file, or start the run anew without --restart"};
+            "Correct the line, or restore the file"};
 }
 
 }  // namespace
@@ -126,10 +126,15 @@ void History::add(const std::vector<double>& row) {
     if (row.size() != columns_.size())
         throw std::invalid_argument(
             fmt::format("History: {} values for {} columns", row.size(), columns_.size()));
+    std::error_code unknown;
+    const std::uintmax_t before = std::filesystem::file_size(path_, unknown);
     file_ << line(row) << std::flush;
-    if (!file_)
+    if (!file_) {
+        file_.close();
+        if (!unknown) std::filesystem::resize_file(path_, before, unknown);  // no half row stays behind
         throw FileError("cannot write " + path_.string(), "the system refused the next row (disk full?)",
                         "Free some space and continue with --restart");
+    }
 }
 
 }  // namespace hemoflux::output

@@ -9,6 +9,7 @@
 
 #include "apps/output/atomic_file.hpp"
 #include "exchange/error.hpp"
+#include "meshing/vtk_listener.hpp"
 
 namespace hemoflux::output {
 namespace {
@@ -21,6 +22,7 @@ InputError malformed(const std::filesystem::path& path, const std::string& why) 
 
 std::vector<Frame> read_pvd(const std::filesystem::path& path) {
     const std::string content = read_file(path);
+    const meshing::VtkSilence silence;
     const auto root = vtkSmartPointer<vtkXMLDataElement>::Take(
         content.empty() ? nullptr : vtkXMLUtilities::ReadElementFromString(content.c_str()));
     vtkXMLDataElement* collection = root ? root->FindNestedElementWithName("Collection") : nullptr;

@@ -28,6 +28,7 @@ struct Summary {
     std::map<std::string, std::string> labels;    ///< what is no number: how a cell moves
     std::map<std::string, Reference> references;  ///< by the name of the observable
 
+    /// How well volume, area, mass and place are kept.
     struct Conservation {
         double volume = NAN;                   ///< largest |V/V(0) - 1| of any cell over the run
         double area = NAN;                     ///< largest |A/A(0) - 1| of any cell over the run
@@ -35,6 +36,7 @@ struct Summary {
         double centroid_um = NAN;              ///< largest distance of a centroid from its start, um
     } conservation;
 
+    /// What the run cost.
     struct Performance {
         double wall_s = NAN;
         double cpu_s = NAN;

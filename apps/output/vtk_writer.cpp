@@ -22,6 +22,7 @@
 
 #include "apps/output/atomic_file.hpp"
 #include "exchange/error.hpp"
+#include "meshing/vtk_listener.hpp"
 
 namespace hemoflux::output {
 namespace {
@@ -58,14 +59,18 @@ std::vector<DataArray> arrays_of(vtkFieldData* attributes) {
 
 /// Serialises in memory, so that the file itself is written atomically and its errors are ours to report.
 template <class Writer, class Data>
-void write(const std::filesystem::path& path, Data* data, double time) {
+void write(const std::filesystem::path& path, Data* data, double time, int compression) {
     data->GetFieldData()->AddArray(to_vtk("TimeValue", 1, {time}));
     vtkNew<Writer> writer;
     writer->SetInputData(data);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToZLib();
-    writer->SetCompressionLevel(1);  // doubles hardly shrink further, and the run waits for it
+    if (compression > 0) {
+        writer->SetCompressorTypeToZLib();
+        writer->SetCompressionLevel(compression);
+    } else {
+        writer->SetCompressorTypeToNone();
+    }
     writer->WriteToOutputStringOn();
     writer->Write();
     write_file(path, writer->GetOutputString());
@@ -87,7 +92,7 @@ DataArray vector_array(std::string name, const std::vector<double>& x, const std
 }
 
 void write_fluid(const std::filesystem::path& path, const std::array<meshing::Axis, 3>& axes,
-                 const std::vector<DataArray>& cell_data, double time) {
+                 const std::vector<DataArray>& cell_data, double time, int compression) {
     vtkNew<vtkRectilinearGrid> grid;
     grid->SetDimensions(static_cast<int>(axes[0].faces.size()), static_cast<int>(axes[1].faces.size()),
                         static_cast<int>(axes[2].faces.size()));
@@ -95,11 +100,11 @@ void write_fluid(const std::filesystem::path& path, const std::array<meshing::Ax
     grid->SetYCoordinates(to_vtk("y_um", 1, axes[1].faces));
     grid->SetZCoordinates(to_vtk("z_um", 1, axes[2].faces));
     add_arrays(grid->GetCellData(), cell_data, axes[0].cells() * axes[1].cells() * axes[2].cells());
-    write<vtkXMLRectilinearGridWriter>(path, grid.Get(), time);
+    write<vtkXMLRectilinearGridWriter>(path, grid.Get(), time, compression);
 }
 
 void write_fluid(const std::filesystem::path& path, const meshing::HexMesh& mesh,
-                 const std::vector<DataArray>& cell_data, double time) {
+                 const std::vector<DataArray>& cell_data, double time, int compression) {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     for (const Vec3d& node : mesh.nodes) points->InsertNextPoint(node.x, node.y, node.z);
@@ -112,12 +117,13 @@ void write_fluid(const std::filesystem::path& path, const meshing::HexMesh& mesh
         grid->InsertNextCell(VTK_HEXAHEDRON, 8, nodes);
     }
     add_arrays(grid->GetCellData(), cell_data, mesh.cells.size());
-    write<vtkXMLUnstructuredGridWriter>(path, grid.Get(), time);
+    write<vtkXMLUnstructuredGridWriter>(path, grid.Get(), time, compression);
 }
 
 void write_cells(const std::filesystem::path& path, const std::vector<meshing::SurfaceMesh>& cells,
                  const std::vector<DataArray>& point_data, double time,
-                 const std::vector<DataArray>& triangle_data, const std::vector<DataArray>& field_data) {
+                 const std::vector<DataArray>& triangle_data, const std::vector<DataArray>& field_data,
+                 int compression) {
     vtkNew<vtkPoints> points;
     points->SetDataTypeToDouble();
     vtkNew<vtkCellArray> triangles;
@@ -141,11 +147,12 @@ void write_cells(const std::filesystem::path& path, const std::vector<meshing::S
                static_cast<std::size_t>(triangles->GetNumberOfCells()));
     for (const DataArray& a : field_data)
         surface->GetFieldData()->AddArray(to_vtk(a.name, a.components, a.values));
-    write<vtkXMLPolyDataWriter>(path, surface.Get(), time);
+    write<vtkXMLPolyDataWriter>(path, surface.Get(), time, compression);
 }
 
 SurfaceArrays read_arrays(const std::filesystem::path& path) {
     if (path.extension() != ".vtp") return {};
+    const meshing::VtkSilence silence;
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->SetFileName(path.c_str());
     reader->Update();

@@ -23,15 +23,18 @@ struct DataArray {
 DataArray vector_array(std::string name, const std::vector<double>& x, const std::vector<double>& y,
                        const std::vector<double>& z);
 
+/// Level of zlib's compression where nothing else is asked for; doubles hardly shrink further, and the run waits for it.
+inline constexpr int fast = 1;
+
 /// Writes cell data on a rectilinear grid (.vtr): cells in the order i fastest, then j, then k; no ghost
-/// cells. time is stored as the field TimeValue. Atomic, compressed, double precision. FileError when it
+/// cells. time is stored as the field TimeValue. Atomic, compressed by zlib (level 1 to 9; 0: not), double precision. FileError when it
 /// cannot be written.
 void write_fluid(const std::filesystem::path& path, const std::array<meshing::Axis, 3>& axes,
-                 const std::vector<DataArray>& cell_data, double time);
+                 const std::vector<DataArray>& cell_data, double time, int compression = fast);
 
 /// Writes cell data on a mesh of hexahedra (.vtu), in the order of its cells. Otherwise as above.
 void write_fluid(const std::filesystem::path& path, const meshing::HexMesh& mesh,
-                 const std::vector<DataArray>& cell_data, double time);
+                 const std::vector<DataArray>& cell_data, double time, int compression = fast);
 
 /// Writes the surfaces of any number of cells into one .vtp: vertices of cell 0, then of cell 1, ...;
 /// point_data and triangle_data in the same order; field_data are arrays of any size. The point array "cell"
@@ -39,7 +42,7 @@ void write_fluid(const std::filesystem::path& path, const meshing::HexMesh& mesh
 void write_cells(const std::filesystem::path& path, const std::vector<meshing::SurfaceMesh>& cells,
                  const std::vector<DataArray>& point_data, double time,
                  const std::vector<DataArray>& triangle_data = {},
-                 const std::vector<DataArray>& field_data = {});
+                 const std::vector<DataArray>& field_data = {}, int compression = fast);
 
 /// The arrays of a .vtp, of vertices, triangles and of no place.
 struct SurfaceArrays {

@@ -35,8 +35,14 @@ class Program : public ::testing::Test {
 
     /// Runs the program in the scratch folder, on one thread unless --threads is given.
     [[nodiscard]] Outcome run(const std::string& arguments) const {
-        const std::string command =
-            "cd '" + folder_.string() + "' && HEMOFLUX_THREADS=1 " HEMOFLUX_PROGRAM " " + arguments + " 2>&1";
+        const std::string command = "cd '" + folder_.string() +
+                                    "' && OMP_WAIT_POLICY=passive HEMOFLUX_THREADS=1 " HEMOFLUX_PROGRAM " " +
+                                    arguments + " 2>&1";
+        return run_command(command);
+    }
+
+    /// Runs any command.
+    [[nodiscard]] static Outcome run_command(const std::string& command) {
         FILE* pipe = popen(command.c_str(), "r");
         Outcome outcome{-1, ""};
         std::array<char, 4096> part;
@@ -56,8 +62,8 @@ class Program : public ::testing::Test {
         return output::read_file(folder_ / name);
     }
 
-    /// The program ends with `code` and exactly one line "error: what: why. what to do." that has `part`.
-    void expect_error(const std::string& arguments, int code, const std::string& part) const {
+    /// The program ends with `code` and exactly one line "error: what: why. what to do." that has `part`; the line.
+    std::string expect_error(const std::string& arguments, int code, const std::string& part) const {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.code, code) << arguments << "\n" << outcome.text;
         EXPECT_TRUE(outcome.text.starts_with("error: ")) << outcome.text;
@@ -68,6 +74,7 @@ class Program : public ::testing::Test {
         EXPECT_NE(outcome.text.find(". ", colon), std::string::npos) << outcome.text;
         EXPECT_NE(outcome.text.find(part), std::string::npos)
             << "\"" << part << "\" is not in: " << outcome.text;
+        return outcome.text;
     }
 
     fs::path folder_;

@@ -24,14 +24,13 @@ apps::CoupledSystem& tank_treading() {
 
 void coupled_step(benchmark::State& state, int threads) {
     apps::CoupledSystem& system = tank_treading();
-    measure(state, threads, system.fluid->grid().view().layout.cells(),
-            [&] { system.loop->step(system.numerics.step); });
+    measure(state, threads, system.fluid->cells(), [&] { system.loop->step(system.numerics.step); });
     system.loop->check();
 }
 
 void evaluate_in_step(benchmark::State& state, int threads) {
     apps::CoupledSystem& system = tank_treading();
-    measure(state, threads, system.fluid->grid().view().layout.cells(), [&] { system.fluid->evaluate(); });
+    measure(state, threads, system.fluid->cells(), [&] { system.fluid->evaluate(); });
 }
 
 }  // namespace

@@ -77,10 +77,10 @@ struct Moving {
                 v[0].push_back(w.x), v[1].push_back(w.y), v[2].push_back(w.z);
             }
         const exchange::Buffer<double> bx(x[0]), by(x[1]), bz(x[2]);
-        exchange::Buffer<double> ux(v[0]), uy(v[1]), uz(v[2]);
+        exchange::Buffer<double> bu(v[0]), bv(v[1]), bw(v[2]);
         ConstraintDamping(mesh.triangles, stride, cells, strength)
-            .apply(bx.data(), by.data(), bz.data(), {ux.data(), uy.data(), uz.data()});
-        const auto hu = ux.to_host(), hv = uy.to_host(), hw = uz.to_host();
+            .apply(bx.data(), by.data(), bz.data(), {bu.data(), bv.data(), bw.data()});
+        const auto hu = bu.to_host(), hv = bv.to_host(), hw = bw.to_host();
         Moving result = *this;
         for (std::size_t i = 0; i < n; ++i)
             result.u[i] = {hu[cell * stride + i], hv[cell * stride + i], hw[cell * stride + i]};

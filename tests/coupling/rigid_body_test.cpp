@@ -9,7 +9,6 @@
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
 #include "meshing/icosphere.hpp"
-#include "meshing/spheroid.hpp"
 
 namespace hemoflux::coupling {
 namespace {
@@ -46,7 +45,7 @@ struct Partners {
         fluid->initialise([&](const Vec3d& x) { return fluid::FlowPoint{1, shear(x)}; });
         loop = std::make_unique<Loop>(*fluid, Kernel::lagrange);
         BodySurface surface = closed_surface(meshing::icosphere(s.level, s.radius));
-        retract(surface, loop->grid().view(), s.start.centre, s.retraction);
+        retract(surface, loop->grid(), s.start.centre, s.retraction);
         body = std::make_unique<RigidBody>(std::move(surface), loop->grid(), s.body, s.start);
         loop->add(*body);
     }
@@ -86,116 +85,6 @@ BodyState turning(double rate) {
 }
 
 }  // namespace
-
-TEST(BodySurface, HasTheAreaVolumeAndInertiaOfItsShape) {
-    const double a = 2, c = 3;
-    BodySurface s = closed_surface(meshing::spheroid(meshing::icosphere(5, 1), a, a, c));
-    const double volume = 4.0 / 3 * pi * a * a * c;
-    EXPECT_NEAR(s.volume, volume, 2e-3 * volume);
-    EXPECT_NEAR(s.area(), meshing::area(meshing::SpheroidAxes{a, c}), 2e-3 * s.area());
-    EXPECT_NEAR(s.inertia.row[2].z, 0.4 * volume * a * a, 4e-3 * volume * a * a);
-    EXPECT_NEAR(s.inertia.row[0].x, 0.2 * volume * (a * a + c * c), 4e-3 * volume * c * c);
-    EXPECT_NEAR(s.inertia.row[0].y, 0, 1e-6 * volume);
-    for (std::size_t j = 0; j < s.nodes.size(); ++j) {
-        const Vec3d n{s.nodes[j].x / (a * a), s.nodes[j].y / (a * a), s.nodes[j].z / (c * c)};
-        EXPECT_GT(dot(n, s.normals[j]) / norm(n), 0.999);
-    }
-}
-
-TEST(BodySurface, CylinderMantleStandsForItsArea) {
-    const BodySurface s = cylinder_mantle(2, 5, {0, 0, 1}, 24, 10);
-    EXPECT_FALSE(s.closed);
-    EXPECT_NEAR(s.area(), pi * 2 * 5, 1e-12);
-    EXPECT_NEAR(s.inertia.row[2].z, s.volume / 2, 1e-12);
-    EXPECT_NEAR(s.inertia.row[0].x, s.volume * (1.0 / 4 + 25.0 / 12), 1e-11);
-    double reach = 0;
-    for (const Vec3d& x : s.nodes) {
-        EXPECT_NEAR(std::hypot(x.x, x.y), 1, 1e-12);
-        reach = std::max(reach, std::abs(x.z));
-    }
-    EXPECT_NEAR(reach, 2.25, 1e-12);
-    EXPECT_EQ(s.mesh.triangles.size(), 24u * 9 * 2);
-    EXPECT_NEAR(meshing::area(s.mesh), pi * 2 * 4.5, 0.01 * pi * 9);
-    for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
-        const Vec3d n = meshing::area_vector(s.mesh, t);
-        EXPECT_GT(dot(n, s.mesh.vertices[static_cast<std::size_t>(s.mesh.triangles[t][0])]), 0);
-    }
-    EXPECT_THROW(cylinder_mantle(2, 5, {0, 0, 1}, 4, 10), InputError);
-}
-
-TEST(BodySurface, RetractsByAShareOfTheCellsAlongTheNormal) {
-    const meshing::RectilinearGrid grid{{meshing::uniform_axis(-8, 8, 16), meshing::uniform_axis(-8, 8, 32),
-                                         meshing::uniform_axis(-8, 8, 8)}};
-    const CellGrid cells(grid, {false, false, false});
-    BodySurface s = closed_surface(meshing::icosphere(3, 4));
-    const BodySurface before = s;
-    retract(s, cells.view(), {0.1, 0, 0}, 0.3);
-    for (std::size_t j = 0; j < s.nodes.size(); ++j) {
-        const Vec3d n = s.normals[j];
-        const double expected = 0.3 * std::sqrt(n.x * n.x + 0.25 * n.y * n.y + 4 * n.z * n.z);
-        EXPECT_NEAR(norm(s.nodes[j] - before.nodes[j]), expected, 1e-12);
-        EXPECT_LT(norm(s.nodes[j]), 4);
-    }
-}
-
-TEST(BodyMotion, TurnsExactlyAndKeepsItsDistances) {
-    BodyState s;
-    s.velocity = {1, 2, 3};
-    s.angular_velocity = {0.3, -0.4, 1.2};
-    const double turn = 2 * pi / 1.3;
-    for (int i = 0; i < 40; ++i) advance(s, turn / 40);
-    const Matrix3 r = rotation(s.orientation);
-    EXPECT_NEAR(norm(r * Vec3d{1, 2, 3} - Vec3d{1, 2, 3}), 0, 1e-12);
-    EXPECT_NEAR(norm(s.centre - turn * Vec3d{1, 2, 3}), 0, 1e-12);
-    advance(s, turn / 4);  // a quarter: axis stays, a vector across it turns by 90 degrees
-    const Matrix3 q = rotation(s.orientation);
-    const Vec3d axis = (1 / 1.3) * Vec3d{0.3, -0.4, 1.2};
-    EXPECT_NEAR(norm(q * axis - axis), 0, 1e-12);
-    const Vec3d across = cross(axis, {1, 0, 0});
-    EXPECT_NEAR(norm(q * across - cross(axis, across)), 0, 1e-12);
-}
-
-// Whatever the gains, the forces after a correction add up to minus the excess inertia times the acceleration.
-TEST(BodyMotion, BalancesForceAndTorque) {
-    BodyState before;
-    before.velocity = {0.1, -0.2, 0.05};
-    before.angular_velocity = {0.02, 0.01, -0.03};
-    const BodySurface s = closed_surface(meshing::spheroid(meshing::icosphere(2, 1), 2, 3, 1.5));
-    for (const double excess : {0.0, 1.5}) {
-        BodyLoad load{excess * s.volume, {}, {0.3, 0, 0}, {0, 0.2, 0}};
-        for (int i = 0; i < 3; ++i) load.excess_inertia.row[i] = excess * s.inertia.row[i];
-        const auto u = [](const Vec3d& x) { return Vec3d{0.1 * x.y + 0.05, 0.2 * x.x * x.z, -0.1 * x.x}; };
-        const auto gain = [](const Vec3d& x) { return 1 + 0.3 * x.x + 0.1 * x.z; };
-        NodeSums sums;
-        for (const Vec3d& r : s.nodes) {
-            const double k = gain(r);
-            const Vec3d f{0.01 * r.z, 0.02, 0.03 * r.x};
-            sums += NodeSums{
-                k,
-                k * r,
-                {k * r.x * r.x, k * r.y * r.y, k * r.z * r.z, k * r.x * r.y, k * r.y * r.z, k * r.z * r.x},
-                k * u(r),
-                k * cross(r, u(r)),
-                f,
-                cross(r, f)};
-        }
-        const double dt = 0.25;
-        const BodyVelocity v = balance(BodyFreedom::free, before, sums, load, dt);
-        Vec3d force{0, 0, 0}, torque{0, 0, 0};
-        for (const Vec3d& r : s.nodes) {
-            const Vec3d f = Vec3d{0.01 * r.z, 0.02, 0.03 * r.x} +
-                            gain(r) * (v.velocity + cross(v.angular_velocity, r) - u(r));
-            force += f;
-            torque += cross(r, f);
-        }
-        const Vec3d& spin = before.angular_velocity;
-        const Vec3d momentum = (load.excess_mass / dt) * (v.velocity - before.velocity),
-                    turn = (1 / dt) * (load.excess_inertia * (v.angular_velocity - spin)) +
-                           cross(spin, load.excess_inertia * spin);
-        EXPECT_NEAR(norm(momentum + force - load.force), 0, 1e-10);
-        EXPECT_NEAR(norm(turn + torque - load.torque), 0, 1e-10);
-    }
-}
 
 // 8 pi mu R^3 Omega / (1 - c) for a sphere of volume fraction c that turns in a periodic box (Zuzovsky, Adler and
 // Brenner 1983), with the nodes drawn in by the Lagrange kernel's share: 2 % at four cells to the radius. Without it

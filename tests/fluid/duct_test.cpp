@@ -46,4 +46,17 @@ TEST(DuctFlow, HasThePublishedResistanceOfASquareDuct) {
     EXPECT_NEAR(flow.largest_speed() / flow.mean_speed(), 2.096, 1e-3);
 }
 
+TEST(DuctFlow, InARoundPipeIsThatOfHagenAndPoiseuille) {
+    const DuctFlow flow = DuctFlow::round(0, 3, 2);
+    EXPECT_EQ(flow.axis(), 0u);
+    EXPECT_NEAR(flow.largest_speed(), 3, 1e-14);
+    EXPECT_NEAR(flow.mean_speed(), 1.5, 1e-14);
+    EXPECT_NEAR(flow.wall_rate(), 3, 1e-14);
+    EXPECT_NEAR(flow.speed({7, 1.2, -1.6}), 0, 1e-14);
+    // laplace(u) = -drive
+    const auto u = [&](double y, double z) { return flow.speed({0, y, z}); };
+    const double h = 1e-3, y = 0.3, z = -0.7;
+    EXPECT_NEAR((u(y + h, z) + u(y - h, z) + u(y, z + h) + u(y, z - h) - 4 * u(y, z)) / (h * h), -3, 1e-6);
+}
+
 }  // namespace hemoflux::fluid

@@ -245,9 +245,49 @@ TEST(HexSolver, RefusesImpossibleOptions) {
     o = viscosity(0.1);
     o.scheme = Scheme::factored;
     EXPECT_THROW(HexSolver(grid, {}, o), InputError);
-    o = viscosity(0.1);
-    o.with_viscosity = true;
-    EXPECT_THROW(HexSolver(grid, {}, o), InputError);
+}
+
+TEST(HexSolver, TakesForceAndViscosityCellByCellAsTheRectilinearSolverDoes) {
+    meshing::RectilinearGrid box;
+    for (auto& axis : box.axes) axis = meshing::uniform_axis(0, 6, 6);
+    Patches p;
+    p.fill(periodic_patch());
+    p[2] = p[3] = wall_patch();
+    SolverOptions o = viscosity(0.3);
+    o.scheme = Scheme::euler;
+    o.with_force = o.with_viscosity = true;
+    o.largest_nu = 0.6;
+    Solver straight(box, p, o);
+    HexSolver hex(meshing::make_hex_grid(meshing::box_mesh(box, random_distortion(0)), test::pairs("xz")),
+                  test::by_name(p), o);
+    EXPECT_NEAR(hex.largest_step(0.1), stable_step(straight.grid(), o.scheme, o.largest_nu, 0.1), 1e-13);
+    const auto same = test::same_cells(hex, straight);
+    const std::size_t n = hex.cells();
+    std::vector<double> nu(n), nu_hex(n), force(n), force_hex(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vec3d x = straight.centre(i);
+        nu[i] = 0.3 * (1.5 + 0.5 * std::sin(x.x) * std::cos(x.y + x.z));
+        force[i] = 1e-3 * std::cos(x.x + 2 * x.z);
+    }
+    for (std::size_t i = 0; i < n; ++i) nu_hex[i] = nu[same[i]], force_hex[i] = force[same[i]];
+    straight.state().set_interior(straight.state().view().nu, nu);
+    straight.state().set_interior(straight.state().view().force[1], force);
+    hex.set_viscosity(nu_hex);
+    hex.set_force(1, force_hex);
+    EXPECT_EQ(hex.coefficient(3), nu_hex);
+    const auto flow = [](const Vec3d& x) {
+        return FlowPoint{1 + 0.01 * std::cos(x.x), {0.02 * std::sin(x.y), 0.01 * std::cos(x.z), 0}};
+    };
+    straight.initialise(flow);
+    hex.initialise(flow);
+    for (int s = 0; s < 20; ++s) straight.step(0.2), hex.step(0.2);
+    for (int c = 0; c < 4; ++c) {
+        const auto a = hex.values(c), b = straight.values(c);
+        for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[same[i]], 1e-13) << c;
+    }
+    HexSolver plain(test::box_grid({3, 3, 3}, {3, 3, 3}, "xyz"), {}, viscosity(0.3));
+    EXPECT_THROW(plain.set_viscosity(nu), std::logic_error);
+    EXPECT_TRUE(plain.coefficient(3).empty());
 }
 
 TEST(HexBoundary, RefusesPatchesThatDoNotFit) {

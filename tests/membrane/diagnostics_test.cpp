@@ -50,6 +50,9 @@ TEST(ShapeMoments, OfABoxAreExact) {
     EXPECT_NEAR(s.moments[2], c * c * (a * b / 4 + (a * c + b * c) / 12) / faces, 1e-12);
     EXPECT_NEAR(std::fabs(s.axes[0].x), std::cos(0.3), 1e-12);
     EXPECT_NEAR(std::fabs(s.axes[2].z), 1, 1e-12);
+    EXPECT_NEAR(s.volume_moments[0], a * a / 12, 1e-12);
+    EXPECT_NEAR(s.volume_moments[1], b * b / 12, 1e-12);
+    EXPECT_NEAR(s.volume_moments[2], c * c / 12, 1e-12);
 }
 
 TEST(ShapeMoments, ReducedVolumeOfTheSphereIsOne) {
@@ -78,6 +81,30 @@ TEST(EllipsoidMoments, HalfAxesOfATriangulatedEllipsoid) {
     EXPECT_NEAR(axes[1], 2, 3e-3);
     EXPECT_NEAR(axes[2], 1.5, 3e-3);
     EXPECT_NEAR(taylor_deformation(s), 1.0 / 3, 1e-3);
+    const auto inertia = inertia_half_axes(s);
+    EXPECT_NEAR(inertia[0], 3, 3e-3);
+    EXPECT_NEAR(inertia[1], 2, 3e-3);
+    EXPECT_NEAR(inertia[2], 1.5, 3e-3);
+}
+
+TEST(TaylorDeformation, ItsThreeMeasuresAgreeOnAnEllipsoidAnywhere) {
+    const auto mesh = turned(meshing::spheroid(meshing::icosphere(5, 1.0), 3, 2, 1.5), 0.7, {40, -9, 2});
+    const auto s = moments(mesh);
+    EXPECT_NEAR(taylor_deformation_volume(s), 1.0 / 3, 1e-3);
+    EXPECT_NEAR(taylor_deformation_extent(mesh.vertices, s.centroid), 1.0 / 3, 1e-3);
+    const auto sphere = meshing::icosphere(3, 2.0);
+    EXPECT_NEAR(taylor_deformation_volume(moments(sphere)), 0, 1e-12);
+    EXPECT_NEAR(taylor_deformation_extent(sphere.vertices, {0, 0, 0}), 0, 1e-12);
+}
+
+TEST(TaylorDeformation, DrawnOutEndsCountMostInTheDistancesAndLeastInTheVolume) {
+    auto mesh = meshing::icosphere(5, 1.0);
+    for (Vec3d& r : mesh.vertices) r.x *= 1 + 0.6 * r.x * r.x * r.x * r.x;
+    const auto s = moments(mesh);
+    const double extent = taylor_deformation_extent(mesh.vertices, s.centroid);
+    EXPECT_NEAR(extent, 0.6 / 2.6, 2e-3);
+    EXPECT_GT(extent, taylor_deformation(s) + 0.01);
+    EXPECT_GT(taylor_deformation(s), taylor_deformation_volume(s) + 0.01);
 }
 
 TEST(Inclination, FollowsTheLongAxis) {
@@ -126,6 +153,24 @@ TEST(MinimumRectangle, OfATurnedBoxIsTheBox) {
         EXPECT_NEAR(r.deformation_index(), 0.6, 1e-12);
     }
     EXPECT_THROW(minimum_rectangle({{0, 0, 0}, {1, 1, 5}, {2, 2, 1}}), InputError);
+}
+
+TEST(ShadowEllipse, OfATurnedBoxHasItsMoments) {
+    for (const double degrees : {-80.0, 0.0, 12.0, 45.0}) {
+        const auto e = shadow_ellipse(turned(box(4, 1, 2), degrees * pi / 180, {3, -8, 0}).vertices);
+        EXPECT_NEAR(e.longest, 4 / std::sqrt(3.0), 1e-12);  // 2 (4^2/12)^{1/2}
+        EXPECT_NEAR(e.shortest, 1 / std::sqrt(3.0), 1e-12);
+        EXPECT_NEAR(e.deformation_index(), 0.6, 1e-12);
+    }
+    EXPECT_THROW(shadow_ellipse({{0, 0, 0}, {1, 1, 5}, {2, 2, 1}}), InputError);
+}
+
+TEST(ShadowEllipse, OfANearlyRoundShadowDoesNotDependOnItsAngle) {
+    const auto ellipsoid = meshing::spheroid(meshing::icosphere(3, 1.0), 1.05, 0.95, 0.4);
+    for (double angle = 0; angle < pi; angle += 0.1) {
+        const auto e = shadow_ellipse(turned(ellipsoid, angle).vertices);
+        EXPECT_NEAR(e.deformation_index(), 0.05, 1e-3) << angle;
+    }
 }
 
 TEST(MinimumRectangle, OfAnEllipsoidHasItsAxes) {
