@@ -1,7 +1,5 @@
 #include "coupling/held_bodies.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "coupling/interpolate.hpp"
@@ -52,7 +50,7 @@ void refuse_moving(const std::vector<RigidBody*>& bodies) {
     for (const RigidBody* b : bodies)
         if (b->options().freedom != BodyFreedom::prescribed || norm(b->state().velocity) > 0 ||
             norm(b->state().angular_velocity) > 0)
-            throw InputError(fmt::format("{} moves in a steady flow", b->name()),
+            throw InputError(b->name() + " moves in a steady flow",
                              "the steady state is found with bodies that are held where they are",
                              "Leave out its motion and velocities, or run it in time: [time] with steady");
 }

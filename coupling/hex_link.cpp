@@ -1,8 +1,7 @@
 #include "coupling/hex_link.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <string>
 
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
@@ -156,7 +155,7 @@ void HexLink::refuse_thin_cells() const {
     });
     if (thin < cells_.field_size())
         throw InputError(
-            fmt::format("cell {} of the mesh", cells_.grid().original[thin]),
+            "cell " + std::to_string(cells_.grid().original[thin]) + " of the mesh",
             "it has too few cells around it to interpolate linearly: the mesh is fewer than two cells "
             "thick there",
             "Refine the mesh");
