@@ -1,7 +1,7 @@
 /// Rigid bodies held in a steady flow, as the constraint of its implicit method (fluid/constraint.hpp): the forces at
 /// the nodes are unknowns beside the fluid's,
 ///
-///   g_j = s_j [U_j - u_j - c_j (t_j - <t>_j)],   t_j = F_j / A_j,   <t>_j = (W f)_j / r_j,   f = W^T F / V,
+///   g_j = s_j [U_j - u_j - c_j (t_j - m_j)],   t_j = F_j / A_j,   m_j = (W f)_j / r_j,   f = W^T F / V,
 ///   s_j = sqrt(A_j / h_j^2) (nu / h_j + u_s) / h_j,   c_j = compliance h_j / (rho nu),   r = W (W^T A / V)
 ///   estimate  F_j = A_j rho nu / (response h_j) g_j / s_j
 ///
@@ -9,7 +9,7 @@
 /// s_j makes the violation a rate: that by which viscosity and the stream, whose largest speed at the start is u_s, would
 /// change the velocity of a cell. Stresses t that alternate
 /// from node to node are hardly felt by the cells and would have no bound, so the surface gives way a little to what
-/// distinguishes a stress from its mean <t> over the neighbourhood; smooth stresses are held without slip. The estimate
+/// distinguishes a stress from its mean m over the neighbourhood; smooth stresses are held without slip. The estimate
 /// is the fluid's answer to stresses that vary over a few cells; Krylov iterations add what longer waves need.
 #pragma once
 

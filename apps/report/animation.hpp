@@ -11,7 +11,7 @@ namespace hemoflux::report {
 /// Most bytes of vertex positions in one page; longer series are thinned evenly.
 constexpr std::size_t most_animation_bytes = 6 * 1024 * 1024;
 
-/// The viewer of a run's cells as a <figure>: canvas, slider, play button, data. Positions are rounded to 1/65534 of
+/// The viewer of a run's cells as a figure element: canvas, slider, play button, data. Positions are rounded to 1/65534 of
 /// the largest extent of all frames (16-bit integers as base64); triangles are stored once for every topology that
 /// occurs. "" for a run without cell files. FileError, InputError when a cell file cannot be read.
 std::string animation(const RunRecord& run, std::size_t most_bytes = most_animation_bytes);

@@ -22,7 +22,7 @@ struct Chart {
 /// Whether there is anything to draw.
 bool has_data(const Chart& chart);
 
-/// The chart as a <figure>: title, SVG with axes, units, bands and curves, legend below. Long curves are thinned so that
+/// The chart as a figure element: title, SVG with axes, units, bands and curves, legend below. Long curves are thinned so that
 /// every peak stays. Curves keep their order as colours unless they name one.
 std::string chart_svg(const Chart& chart);
 
