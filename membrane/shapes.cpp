@@ -6,7 +6,7 @@
 
 #include "membrane/batch.hpp"
 #include "membrane/diagnostics.hpp"
-#include "membrane/point_symmetry.hpp"
+#include "membrane/symmetry.hpp"
 #include "meshing/evans_fung.hpp"
 #include "meshing/icosphere.hpp"
 #include "meshing/spheroid.hpp"
@@ -71,10 +71,8 @@ Cell make_discocyte(const meshing::SurfaceMesh& sphere, const ShapeOptions& opti
     }
     if (options.reference != ReferenceKind::spheroid) {
         batch.set_reference(reference_of(*cell.topology, sphere, batch.positions(0), options));
-        const std::vector<int> held = options.camber == 0 ? antipodes(sphere) : std::vector<int>{};
-        cell.relaxation = !held.empty() && point_symmetric(*cell.topology, held, batch.reference())
-                              ? relax_symmetric(batch, held, options.relaxation)
-                              : relax(batch, options.relaxation);
+        cell.relaxation = relax_symmetric(
+            batch, options.camber == 0 ? symmetries(sphere) : std::vector<Symmetry>{}, options.relaxation);
     }
     cell.reference = batch.reference();
     cell.positions = batch.positions(0);
