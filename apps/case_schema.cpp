@@ -257,7 +257,7 @@ const Table& case_schema() {
                  {automatic(), number().within(1e-9, 1, "a share of the radius R0")},
                  "\"auto\"",
                  "of adaptive: largest error in the position of a membrane node per strain unit, over R0; "
-                 "auto: 2e-3"}}})},
+                 "auto: 1e-3"}}})},
           "",
           "kinds coupled and fluid"},
          {"numerics", {table(numerics_table())}, "{}", "optional"},

@@ -129,8 +129,9 @@ void CoupledClock::save(output::Checkpoint& checkpoint) const {
     if (!control_) return;
     checkpoint.put("clock.leg",
                    {from_, to_, static_cast<double>(leg_.steps), static_cast<double>(leg_done_)});
-    checkpoint.put("clock.control", {control_->step(), taken_, shortest_, longest_, largest_error_,
-                                     static_cast<double>(changes_)});
+    checkpoint.put("clock.control",
+                   {control_->step(), taken_, shortest_, longest_, largest_error_,
+                    static_cast<double>(changes_), static_cast<double>(control_->waiting())});
     checkpoint.put("clock.velocities", system_.loop->velocities());
 }
 
@@ -138,12 +139,12 @@ void CoupledClock::load(const output::Checkpoint& checkpoint, long long done) {
     done_ = done;
     if (!control_) return;
     const auto& leg = checkpoint.array("clock.leg", 4);
-    const auto& control = checkpoint.array("clock.control", 6);
+    const auto& control = checkpoint.array("clock.control", 7);
     from_ = leg[0], to_ = leg[1];
     leg_.steps = static_cast<long long>(leg[2]);
     leg_.step = (to_ - from_) / leg[2];
     leg_done_ = static_cast<long long>(leg[3]);
-    control_->set_step(control[0]);
+    control_->restore(control[0], static_cast<int>(control[6]));
     taken_ = control[1], shortest_ = control[2], longest_ = control[3];
     largest_error_ = control[4], changes_ = static_cast<long long>(control[5]);
     system_.loop->restore_velocities(checkpoint.array("clock.velocities"));

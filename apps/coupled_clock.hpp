@@ -21,7 +21,7 @@ struct OutputIntervals {
 };
 
 /// Position error per strain unit over R0 that time.tolerance = "auto" allows.
-inline constexpr double default_tolerance = 2e-3;
+inline constexpr double default_tolerance = 1e-3;
 
 /// Advances the system and knows where it stands.
 class CoupledClock {

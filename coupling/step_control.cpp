@@ -10,7 +10,7 @@
 namespace hemoflux::coupling {
 namespace {
 
-constexpr double safety = 0.9, most_shrink = 0.25, most_growth = 2, worth_growing = 1.25;
+constexpr double safety = 0.9, most_shrink = 0.5, most_growth = 2, worth_growing = 1.25;
 
 struct NoteChange {
     const double* u[3];
@@ -40,13 +40,19 @@ StepControl::StepControl(const StepBounds& b) : bounds_(b), step_(b.first) {
 }
 
 void StepControl::observe(double taken, double error) {
+    if (waiting_ > 0) {
+        --waiting_;
+        return;
+    }
     if (std::isnan(error)) return;
+    const double before = step_;
     const double allowed =
         error > 0 ? safety * taken * bounds_.tolerance / error : std::numeric_limits<double>::infinity();
     if (error > bounds_.tolerance)
         step_ = std::min(step_, std::max(allowed, most_shrink * step_));
     else if (allowed >= worth_growing * step_)
         step_ = std::min({allowed, most_growth * step_, bounds_.longest});
+    if (step_ != before) waiting_ = settling_steps;
 }
 
 struct VelocityChange::Scratch {

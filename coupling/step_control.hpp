@@ -9,8 +9,9 @@
 /// these errors neither grow nor cancel. eps is proportional to dt. It is not the error of the fluid's velocity, which the
 /// AF scheme makes first order as well, nor of what a membrane at its explicit limit does.
 ///
-/// The step becomes 0.9 dt tol/eps (at least a quarter) as soon as eps passes the tolerance; no step is taken back. It becomes
-/// longer, at most twice, when one longer by a quarter is allowed, so that it does not change from step to step.
+/// The step becomes 0.9 dt tol/eps (at least half of it) when eps passes the tolerance; no step is taken back. It becomes
+/// longer, at most twice, when one longer by a quarter is allowed. A change of the step itself changes the velocities, by what
+/// penalties and their damping make of it, so the steps that follow one are waited for before the next.
 #pragma once
 
 #include <array>
@@ -31,6 +32,9 @@ struct StepBounds {
     double tolerance = 0;
 };
 
+/// Steps after a change in which no other follows.
+inline constexpr int settling_steps = 4;
+
 /// The controller alone: plain numbers.
 class StepControl {
   public:
@@ -43,13 +47,16 @@ class StepControl {
     [[nodiscard]] bool failed() const { return step_ < bounds_.shortest; }
     /// Takes note of eps in a step of the length `taken`. NaN leaves the step as it is.
     void observe(double taken, double error);
+    /// Steps to come that change nothing.
+    [[nodiscard]] int waiting() const { return waiting_; }
     /// For a restart.
-    void set_step(double step) { step_ = step; }
+    void restore(double step, int waiting) { step_ = step, waiting_ = waiting; }
     [[nodiscard]] const StepBounds& bounds() const { return bounds_; }
 
   private:
     StepBounds bounds_;
     double step_;
+    int waiting_ = 0;
 };
 
 /// How much the velocities of nodes change from step to step.

@@ -16,13 +16,19 @@ namespace {
 
 constexpr StepBounds bounds{.longest = 8, .shortest = 0.01, .first = 1, .tolerance = 0.1};
 
+/// Observes as often as the controller waits, and once more.
+void observe(StepControl& control, double taken, double error) {
+    while (control.waiting() > 0) control.observe(taken, error);
+    control.observe(taken, error);
+}
+
 }  // namespace
 
 TEST(StepControl, GrowsByAtMostTwoAndNeverBeyondTheLongest) {
     StepControl control(bounds);
     EXPECT_EQ(control.step(), 1);
     for (const double expected : {2.0, 4.0, 8.0, 8.0}) {
-        control.observe(control.step(), 0);
+        observe(control, control.step(), 0);
         EXPECT_EQ(control.step(), expected);
     }
     StepControl some(bounds);
@@ -30,17 +36,34 @@ TEST(StepControl, GrowsByAtMostTwoAndNeverBeyondTheLongest) {
     EXPECT_DOUBLE_EQ(some.step(), 1.5);
 }
 
-TEST(StepControl, ShrinksAtOnceToWhatTheErrorAllows) {
+TEST(StepControl, ShrinksToWhatTheErrorAllowsByAtMostHalf) {
     StepControl control(bounds);
-    control.observe(1, 0.18);
-    EXPECT_DOUBLE_EQ(control.step(), 0.5);
-    control.observe(0.4, 0.12);  // a step shorter than the wished one tells of itself
-    EXPECT_DOUBLE_EQ(control.step(), 0.3);
-    control.observe(0.3, 1e9);
-    EXPECT_DOUBLE_EQ(control.step(), 0.075);
+    control.observe(1, 0.12);
+    EXPECT_DOUBLE_EQ(control.step(), 0.75);
+    observe(control, 0.6, 0.12);  // a step shorter than the wished one tells of itself
+    EXPECT_DOUBLE_EQ(control.step(), 0.45);
+    observe(control, 0.45, 1e9);
+    EXPECT_DOUBLE_EQ(control.step(), 0.225);
+    for (int i = 0; i < 4; ++i) observe(control, control.step(), 1e9);
     EXPECT_FALSE(control.failed());
-    for (int i = 0; i < 2; ++i) control.observe(control.step(), 1e9);
+    observe(control, control.step(), 1e9);
     EXPECT_TRUE(control.failed());
+}
+
+TEST(StepControl, WaitsAfterAChange) {
+    StepControl control(bounds);
+    control.observe(1, 0);
+    ASSERT_EQ(control.step(), 2);
+    StepControl restored(bounds);
+    restored.restore(control.step(), control.waiting());
+    for (int i = 0; i < settling_steps; ++i) {
+        control.observe(2, 1e9);
+        EXPECT_EQ(control.step(), 2);
+    }
+    control.observe(2, 1e9);
+    EXPECT_EQ(control.step(), 1);
+    observe(restored, 2, 1e9);
+    EXPECT_EQ(restored.step(), 1);
 }
 
 TEST(StepControl, KeepsAStepThatIsAboutRight) {
@@ -52,13 +75,13 @@ TEST(StepControl, KeepsAStepThatIsAboutRight) {
     control.observe(1, 0.0719);  // one longer by a quarter is allowed
     EXPECT_GT(control.step(), 1.25);
     const double now = control.step();
-    control.observe(now, std::numeric_limits<double>::quiet_NaN());
+    observe(control, now, std::numeric_limits<double>::quiet_NaN());
     EXPECT_EQ(control.step(), now);
 }
 
 TEST(StepControl, SettlesWhereTheErrorIsProportionalToTheStep) {
     StepControl control(bounds);
-    for (int i = 0; i < 20; ++i) control.observe(control.step(), 0.03 * control.step());
+    for (int i = 0; i < 20; ++i) observe(control, control.step(), 0.03 * control.step());
     EXPECT_LE(0.03 * control.step(), 0.1);
     EXPECT_GE(0.03 * control.step(), 0.07);
 }
