@@ -64,8 +64,8 @@ kind = "coupled"
 [fluid]
 viscosity = "22 mPa s"
 [grid]
-length = ["12 um", "12 um", "12 um"]
-cells = [12, 12, 12]
+length = ["12 um", "18 um", "12 um"]
+cells = [12, 18, 12]
 [boundary]
 x = "periodic"
 z = "periodic"
@@ -74,18 +74,21 @@ y = { velocity = "shear" }
 rate = "3 1/s"
 [[cell]]
 nodes = 162
-position = ["0 um", "-3 um", "0 um"]
+position = ["0 um", "-5.5 um", "0 um"]
 [[cell]]
 nodes = 162
+position = ["0.5 um", "-1.5 um", "0 um"]
 [contact]
 pressure = "1 Pa"
 [[body]]
 diameter = "3 um"
 motion = "free"
-position = ["0 um", "3.5 um", "0 um"]
+position = ["0 um", "5 um", "0 um"]
 [time]
 strain = 0.2
 adaptive = true
+[numerics]
+reynolds = 1
 [output]
 interval_strain = 0.1
 checkpoint_interval_strain = 0.12
