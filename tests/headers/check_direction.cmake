@@ -1,5 +1,6 @@
 # cmake -D ROOT=<folder of the rooms> -P check_direction.cmake
-# exchange <- meshing <- {fluid, membrane} <- coupling <- apps, and the parallel backends are named in exchange only.
+# exchange <- meshing <- {fluid, membrane} <- coupling <- apps, the parallel backends are named in exchange only, and
+# every header can be included twice.
 cmake_minimum_required(VERSION 3.25)
 
 set(sees_exchange exchange)
@@ -17,6 +18,11 @@ foreach(room ${rooms})
   foreach(file ${files})
     math(EXPR files_read "${files_read} + 1")
     file(RELATIVE_PATH name ${ROOT} ${file})
+    file(STRINGS ${file} guard REGEX "^#pragma once" LIMIT_COUNT 1)
+    if(file MATCHES "hpp$" AND NOT guard)
+      message("${name}: no #pragma once")
+      math(EXPR faults "${faults} + 1")
+    endif()
     file(STRINGS ${file} includes REGEX "^[ \t]*#[ \t]*include[ \t]+\"[a-z]+/")
     foreach(line IN LISTS includes)
       string(REGEX REPLACE "^[^\"]*\"([a-z]+)/.*" "\\1" other "${line}")
