@@ -61,7 +61,7 @@ TEST_F(Adaptive, ContinuesBitwise) { continue_bitwise(adaptive_run, "--threads 2
 // While the steps still grow, between a change and the next one that is waited for.
 TEST_F(Adaptive, ContinuesBitwiseWhereTheStepChanges) {
     continue_bitwise(adaptive_run + "--set time.strain=0.02 --set time.tolerance=1 --set " +
-                         "output.checkpoint_interval_strain=0.011",
+                         "output.checkpoint_interval_strain=0.0101",
                      "");
 }
 
