@@ -6,6 +6,7 @@
 #include <string>
 
 #include "meshing/surface_formats.hpp"
+#include "tests/fuzz/library_leaks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
