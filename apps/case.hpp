@@ -167,6 +167,9 @@ struct TimeInput {
     std::optional<double> duration;  ///< s
     std::optional<double> step;      ///< s; empty: numerics.step_strain, or chosen
     std::optional<double> steady;    ///< change of the velocity below which a run ends
+    bool adaptive = false;           ///< kind coupled: steps that follow the error
+    std::optional<double>
+        tolerance;  ///< of adaptive steps: position error per strain unit over R0; empty: chosen
     bool operator==(const TimeInput&) const = default;
 };
 

@@ -246,7 +246,18 @@ const Table& case_schema() {
                  "",
                  "kind fluid: ends the run when in a hundredth of its length the velocity changes by less "
                  "than "
-                 "this share (relative L2)"}}})},
+                 "this share (relative L2)"},
+                {"adaptive",
+                 {flag()},
+                 "false",
+                 "kind coupled: steps that follow the error of the nodes' motion, never longer than the one "
+                 "chosen for "
+                 "stability"},
+                {"tolerance",
+                 {automatic(), number().within(1e-9, 1, "a share of the radius R0")},
+                 "\"auto\"",
+                 "of adaptive: largest error in the position of a membrane node per strain unit, over R0; "
+                 "auto: 1e-3"}}})},
           "",
           "kinds coupled and fluid"},
          {"numerics", {table(numerics_table())}, "{}", "optional"},

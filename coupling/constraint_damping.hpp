@@ -54,6 +54,8 @@ class ConstraintDamping {
                       double strength);
     ~ConstraintDamping();
 
+    /// For steps of another length; > 0.
+    void set_strength(double strength);
     /// Damps velocities u (device, in place) of the nodes at x, y, z (device, um). Padding gets the velocity of the first
     /// node of its cell.
     void apply(const double* x, const double* y, const double* z, const std::array<double*, 3>& u);
@@ -61,7 +63,7 @@ class ConstraintDamping {
   private:
     struct Scratch;
     std::size_t triangles_, stride_, cells_;
-    double share_, weight_;
+    double share_ = 0, weight_ = 0;
     exchange::Buffer<int> corners_, ring_begin_, ring_;
     exchange::Buffer<TriangleGradient> triangle_;
     exchange::Buffer<NodeGradient> node_;

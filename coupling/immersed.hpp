@@ -38,6 +38,10 @@ class Immersed {
 
     /// Throws NumericalError when something of its own is wrong that the loop does not see.
     virtual void check() {}
+    /// A node in words, for messages.
+    [[nodiscard]] virtual std::string describe_node(std::size_t node) const {
+        return "node " + std::to_string(node) + " of " + name();
+    }
     /// Throws the NumericalError for a node that has left the box or is not a number.
     [[noreturn]] virtual void report_lost(std::size_t node) const = 0;
 

@@ -15,6 +15,10 @@ Simulation::Simulation(const apps::Case& c, const output::Checkpoint* checkpoint
     columns_ = {"step", "time_s"};
     switch (case_.kind) {
         case apps::CaseKind::coupled:
+            if (case_.time.adaptive)
+                throw InputError("time.adaptive",
+                                 "a simulation that is advanced step by step has equal steps",
+                                 "Leave it out, or use hemoflux.run");
             coupled_.emplace(case_);
             coupled_->add_cells(case_, checkpoint);
             observer_.emplace(*coupled_->cells);
