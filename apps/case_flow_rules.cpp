@@ -152,8 +152,19 @@ void check_steady(const Section& top, const std::string& name) {
         refuse(name, "[steady] with an oscillating force", "there is no steady state", "Remove [steady]");
 }
 
-/// Keys of the capillary scaling, which only cells need.
+/// Keys of the capillary scaling, which only cells need, and those that only a flow alone reads.
 void check_numerics(const Section& top, const std::string& name) {
+    if (top.text("kind") == "coupled") {
+        // on a mesh it stands for the speed of velocity expressions
+        if (top.table("numerics")->maybe("speed") && !(top.table("grid") && top.table("grid")->table("mesh")))
+            refuse(name, "numerics.speed in a case of kind \"coupled\"",
+                   "it would have no effect: the Mach number is that of the sheared walls, or of the "
+                   "channel's flow",
+                   "Remove it, or give numerics.mach");
+        if (const auto time = top.table("time"); time && time->has("steady"))
+            refuse(name, "time.steady in a case of kind \"coupled\"",
+                   "it would have no effect: a run with cells lasts as long as it says", "Remove it");
+    }
     if (top.text("kind") != "fluid") return;
     for (const char* key : {"lattice_viscosity", "reynolds"})
         if (top.table("numerics")->maybe(key))

@@ -42,10 +42,7 @@ Table grid_table() {
               {choice(kinds), choice(kinds).of(3)},
               "\"uniform\"",
               "spacing, of all axes or one word per axis"},
-             {"mesh",
-              {table(mesh_table())},
-              "",
-              "an unstructured mesh of hexahedra in place of the box, kind fluid"},
+             {"mesh", {table(mesh_table())}, "", "an unstructured mesh of hexahedra in place of the box"},
              {"length",
               {quantity_in("um").above(0, positive_length).up_to(1e9).of(3)},
               "",
@@ -125,7 +122,7 @@ Table numerics_table() {
          {"gradient",
           {choice({"least-squares", "green-gauss", "hybrid"})},
           "\"least-squares\"",
-          "kind fluid: operator for the gradients (A.29-A.35); hybrid on unstructured grids only"}}};
+          "operator for the gradients (A.29-A.35); hybrid on unstructured grids only"}}};
 }
 
 Table output_table() {

@@ -18,6 +18,17 @@
 #include "membrane/fields.hpp"
 
 namespace hemoflux::apps {
+namespace {
+
+/// thickness.csv: how thick the cell is at each distance from its axis.
+void write_thickness(const MembraneRun& run, const membrane::Batch& batch) {
+    output::Table table{{"radius_um", "mean_um", "least_um", "greatest_um"}, {}};
+    for (const auto& s : membrane::thickness_profile(batch.topology().triangles(), batch.positions(0)))
+        table.rows.push_back({s.radius, s.mean, s.least, s.greatest});
+    output::write_table(run.folder.path() / "thickness.csv", table);
+}
+
+}  // namespace
 
 std::string MembraneRun::label(std::size_t cell) const {
     const std::string& name = input.cells[cell].name;
@@ -97,13 +108,6 @@ void MembraneRun::plot(const output::PlotSpec& spec, const std::string& stem) co
 void MembraneRun::gallery(const output::GallerySpec& spec, const std::string& stem) const {
     if (!input.output.pictures) return;
     if (const auto message = output::draw_gallery(spec, folder.path() / (stem + ".png"))) log.warn(*message);
-}
-
-void write_thickness(const MembraneRun& run, const membrane::Batch& batch) {
-    output::Table table{{"radius_um", "mean_um", "least_um", "greatest_um"}, {}};
-    for (const auto& s : membrane::thickness_profile(batch.topology().triangles(), batch.positions(0)))
-        table.rows.push_back({s.radius, s.mean, s.least, s.greatest});
-    output::write_table(run.folder.path() / "thickness.csv", table);
 }
 
 void run_relax(MembraneRun& run) {

@@ -9,6 +9,7 @@ namespace hemoflux::apps {
 struct StepPlan {
     long long steps = 0;
     double step = 0;
+    /// end and wished step in the same unit, positive.
     StepPlan(double end, double wished) {
         steps = static_cast<long long>(std::ceil(end / wished - 1e-9));
         if (steps < 1) steps = 1;

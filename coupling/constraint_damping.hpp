@@ -8,8 +8,8 @@
 ///   u_i <- u_i - w/d_i sum_k g_ki (sum_j g_kj . u_j) / A_k        four times; g_ki = dA_k/dR_i, d_i = sum_k |g_ki|^2 / A_k
 ///   u <- u - s/(1 + s) P u          P the projection on grad V and grad A: dV/dt and dA/dt are divided by 1 + s
 ///
-/// The first damps what varies from node to node most: no mode of it grows, since 3 w < 1. A rest state has no rates, so it is
-/// not changed, nor are the volume and area errors, which the moduli set; rigid motions pass through.
+/// The first damps what varies from node to node most: no mode of it grows, since 3 w < 1. A rest state has no rates,
+/// so it is not changed, nor are the volume and area errors, which the moduli set; rigid motions pass through.
 /// s = 9 strength and w = 0.3 min(1, strength) with strength = step / explicit limit - 1: nothing at the explicit limit.
 #pragma once
 

@@ -23,6 +23,7 @@ class Immersed {
     [[nodiscard]] virtual exchange::FieldView positions() = 0;
     /// Forces of the nodes on the fluid (device, in force_unit()); the pointers stay valid.
     [[nodiscard]] virtual exchange::FieldView forces() = 0;
+    /// In words, for output.
     [[nodiscard]] virtual std::string force_unit() const = 0;
     /// Force in force_unit() -> lattice force (rho_0 c^2 um^2).
     [[nodiscard]] virtual double force_factor() const = 0;
