@@ -88,8 +88,8 @@ HexMesh sort_cells(vtkUnstructuredGrid* data) {
 
 HexMesh read_vtu(const std::string& file) {
     const std::string text = file_text(file);
+    const VtkSilence silence;  // of its compressors too
     check_vtk(text, "UnstructuredGrid");
-    const VtkSilence silence;
     vtkNew<VtkListener> listener;
     vtkNew<vtkXMLUnstructuredGridReader> reader;
     reader->AddObserver(vtkCommand::ErrorEvent, listener);

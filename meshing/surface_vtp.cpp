@@ -17,8 +17,8 @@
 namespace hemoflux::meshing {
 
 SurfaceMesh parse_vtp(const std::string& text) {
+    const VtkSilence silence;  // of its compressors too
     check_vtk(text, "PolyData");
-    const VtkSilence silence;
     vtkNew<VtkListener> listener;
     vtkNew<vtkXMLPolyDataReader> reader;
     reader->AddObserver(vtkCommand::ErrorEvent, listener);
