@@ -85,7 +85,7 @@ TEST_F(MeshFile, TruncatedFilesAreRefused) {
             const std::string text = content(file.path());
             for (std::size_t part = 0; part < 20; ++part) {
                 const std::string begin = text.substr(0, text.size() * part / 20);
-                if (begin.find("$EndElements\n") != std::string::npos)
+                if (begin.find("$EndElements") != std::string::npos)
                     continue;  // whole but for periodic nodes
                 EXPECT_NE(refusal(file.path().extension().string(), begin), "")
                     << file.path() << ", " << part << " of 20";
