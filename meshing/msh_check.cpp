@@ -249,6 +249,8 @@ void check_msh(const std::string& text) {
              MshNumbers(head.substr(std::min(head.size(), head.find('\n') + 1)), "MeshFormat", true)
                  .integer() != 1)
         in.refuse("its bytes are in another order than this machine's");
+    for (const char* needed : {"Nodes", "Elements"})
+        if (!sections.contains(needed)) throw FormatError(fmt::format("it has no section ${}", needed));
     if (const auto comments = sections.find("Comments");
         comments != sections.end() && comments->second.find('$') != std::string_view::npos)
         throw FormatError("section $Comments holds a $, where gmsh sees another section");

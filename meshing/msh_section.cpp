@@ -49,8 +49,6 @@ std::map<std::string, std::string_view> msh_sections(const std::string& text) {
             throw FormatError(fmt::format("section ${} is there twice", name));
         at = end + closing.size();
     }
-    for (const char* needed : {"MeshFormat", "Nodes", "Elements"})
-        if (!sections.contains(needed)) throw FormatError(fmt::format("it has no section ${}", needed));
     return sections;
 }
 

@@ -74,8 +74,9 @@ bool parses(std::string_view word, T& value) {
 bool is_value(std::string_view word, const Type& type, std::int64_t& whole) {
     if (type.kind == 'f') {
         double value = 0;
-        return parses(word, value) && std::isfinite(value) &&
-               (type.size == 8 || std::abs(value) <= std::numeric_limits<float>::max());
+        if (!parses(word, value)) return false;
+        if (!std::isfinite(value)) return word.size() <= std::string_view("-nan").size();  // not "infinity"
+        return type.size == 8 || std::abs(value) <= std::numeric_limits<float>::max();
     }
     if (type.kind == 'u' && type.size == 8) {
         std::uint64_t value = 0;
@@ -233,6 +234,7 @@ std::string VtkArrays::bytes(const VtkElement& array) const {
 
 void VtkArrays::check(const VtkElement& array, std::uint64_t n) const {
     const Type& type = type_of(array);
+    if (n == 0) return;  // VTK makes it, but reads nothing
     std::uint64_t values = 0;
     if (type.kind == 's') {  // each ends with a zero
         if (is_text(array)) {

@@ -99,12 +99,23 @@ TEST_F(MeshFile, VtkArraysHoldWhatTheirPlaceDemands) {
                    "\"types\" holds 2 values instead of 4");
     expect_refused(".vtu", replaced(text, ">-1 0<", ">-1<"), "\"patch\" holds 1 values instead of 2");
     expect_refused(".vtu", replaced(text, ">-1 0<", ">-1 x<"), "\"x\", which is no value of type Int32");
+    const std::string real = "type=\"Float32\" Name=\"u\" format=\"ascii\">";
+    for (const char* value : {"nan", "-inf", "1e-40", "+3.5"})  // VTK writes the first two
+        EXPECT_EQ(
+            refusal(".vtu",
+                    replaced(text, "type=\"Int32\" Name=\"patch\" format=\"ascii\">-1 0",
+                             "type=\"Int32\" Name=\"patch\" format=\"ascii\">-1 0</DataArray><DataArray " +
+                                 real + value + " 0")),
+            "")
+            << value;
     expect_refused(".vtu", replaced(text, ">8 12<", ">8 7<"), "does not ascend");
     expect_refused(".vtu", replaced(text, ">8 12<", ">8 13<"),
                    "\"connectivity\" holds 12 values instead of 13");
     expect_refused(".vtu", replaced(text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""),
                    "3 components");
     expect_refused(".vtu", replaced(text, "\"Int32\"", "\"Bit\""), "type \"Bit\"");
+    expect_refused(".vtu", content(corpus / "vtu" / "field_type.vtu"), "type \"Float66\"");
+    expect_refused(".vtp", content(corpus / "vtp" / "field_type.vtp"), "type \"Float66\"");
     expect_refused(".vtu", replaced(text, "<Points>", "<Points/><Points>"), "<Points> twice");
     expect_refused(".vtu", replaced(text, "</Cells>", "</Cell>"), "an end without begin");
     expect_refused(".vtu", "<!DOCTYPE a>" + text, "a declaration");
