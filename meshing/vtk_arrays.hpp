@@ -17,7 +17,7 @@ class VtkArrays {
     /// nothing usable about its bytes.
     VtkArrays(const VtkElement& root, std::string_view appended);
 
-    /// FormatError unless the array is of a known type and, where n > 0, holds exactly n values of it.
+    /// FormatError unless the array is of a known type and holds exactly n values of it. VTK looks into those of none too.
     void check(const VtkElement& array, std::uint64_t n) const;
     /// The n whole numbers of an array; FormatError unless it holds exactly those.
     [[nodiscard]] std::vector<std::int64_t> integers(const VtkElement& array, std::uint64_t n) const;

@@ -116,6 +116,7 @@ TEST_F(MeshFile, VtkArraysHoldWhatTheirPlaceDemands) {
     expect_refused(".vtu", replaced(text, "\"Int32\"", "\"Bit\""), "type \"Bit\"");
     expect_refused(".vtu", content(corpus / "vtu" / "field_type.vtu"), "type \"Float66\"");
     expect_refused(".vtp", content(corpus / "vtp" / "field_type.vtp"), "type \"Float66\"");
+    expect_refused(".vtp", content(corpus / "vtp" / "empty_packed.vtp"), "array");
     expect_refused(".vtu", replaced(text, "<Points>", "<Points/><Points>"), "<Points> twice");
     expect_refused(".vtu", replaced(text, "</Cells>", "</Cell>"), "an end without begin");
     expect_refused(".vtu", "<!DOCTYPE a>" + text, "a declaration");
