@@ -18,8 +18,13 @@ namespace hemoflux::apps {
 namespace {
 
 TimeInput read_time(const Section& in) {
-    return {chosen<TimeScheme>(in.text("scheme"), {"euler", "rk4", "factored"}), in.maybe("strain"),
-            in.maybe("duration"), in.maybe("step"), in.maybe("steady")};
+    return {chosen<TimeScheme>(in.text("scheme"), {"euler", "rk4", "factored"}),
+            in.maybe("strain"),
+            in.maybe("duration"),
+            in.maybe("step"),
+            in.maybe("steady"),
+            in.flag("adaptive"),
+            in.maybe("tolerance")};
 }
 
 NumericsInput read_numerics(const Section& in) {

@@ -8,20 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "apps/case_cell.hpp"
 #include "apps/case_observables.hpp"
 #include "apps/case_rigid.hpp"
 #include "apps/case_watchdog.hpp"
-#include "membrane/shapes.hpp"
-#include "membrane/stretch.hpp"
 #include "meshing/rectilinear.hpp"
 
 namespace hemoflux::apps {
 
-using Triple = std::array<double, 3>;
-
+/// kind: cells in a flow, the flow alone, or cells alone.
 enum class CaseKind { coupled, fluid, membrane };
+/// fluid.initial; "auto" is resolved.
 enum class InitialFlow { rest, shear, analytical, channel, uniform, inflow };
+/// grid.kind of one axis; given: "explicit".
 enum class AxisKind { uniform, plateau, chebyshev, given };
+/// velocity of one side, in the order of the words in the schema; vector: the same everywhere on it.
 enum class VelocityCondition {
     periodic,
     shear,
@@ -32,16 +33,21 @@ enum class VelocityCondition {
     expression,
     vector
 };
+/// density of one side: a word, a number (density), or a quantity (pressure).
 enum class DensityCondition { zero_gradient, gradient, expression, density, pressure };
-enum class CellShape { discocyte, sphere, spheroid, evans_fung, file };
-enum class MembraneReference { stress_free, uniform, coarse_grained, spheroid, file, stored, automatic };
+/// coupling.kernel.
 enum class Kernel { lagrange, phi2, phi3, phi4 };
+/// coupling.membrane_viscosity.
 enum class MembraneViscosityForm { springs, fluid };
+/// time.scheme.
 enum class TimeScheme { euler, rk4, factored };
-enum class MembraneTask { relax, stretch, shapes, moduli, recovery, calibrate };
+/// steady.method.
 enum class SteadyMethod { implicit, local_steps };
+/// steady.criterion.
 enum class SteadyCriterion { momentum, residual, velocity_change };
+/// numerics.gradient.
 enum class Gradient { least_squares, green_gauss, hybrid };
+/// analytical.solution.
 enum class ExactSolution { couette, poiseuille, taylor_green, womersley };
 
 /// [fluid]
@@ -89,49 +95,6 @@ struct PatchInput {
     bool operator==(const PatchInput&) const = default;
 };
 
-/// [[cell]]; lengths um, tensions N/m, energies J.
-struct CellInput {
-    std::string name;  ///< what tables and pictures call it; "": its number
-    std::string mesh;  ///< "icosphere" or the path of a sphere mesh; unused when shape is file
-    int nodes = 0;     ///< of the icosphere
-    CellShape shape = CellShape::discocyte;
-    std::string file;                                     ///< surface for CellShape::file
-    double reduced_volume = 0;                            ///< of CellShape::spheroid
-    membrane::Route route = membrane::Route::evans_fung;  ///< of CellShape::discocyte
-    MembraneReference reference = MembraneReference::automatic;
-    std::string reference_file;
-    double reference_reduced_volume = 0;
-    double camber = 0;  ///< um, of the start of a discocyte
-    membrane::InPlaneLaw law = membrane::InPlaneLaw::wlc;
-    double skalak_ratio = 1;  ///< C of the Skalak law
-    membrane::BendingScheme bending_scheme = membrane::BendingScheme::juelicher;
-    double shear_modulus = 0;                       ///< K_S, N/m
-    std::optional<double> spring_length;            ///< L_s0, um; empty: 1.16 mean edges of the relaxed disc
-    std::optional<double> spring_ratio;             ///< r
-    double volume_modulus = 0;                      ///< K_V, Pa
-    double area_modulus = 0;                        ///< K_A, N/m
-    double local_area_modulus = 0;                  ///< K_A,k, N/m
-    double bending_modulus = 0;                     ///< K_B, J
-    double ade_modulus = 0;                         ///< K_ADE, J
-    std::optional<double> spontaneous_curvature;    ///< c0 = C_0 R0; empty as the next ones: see rest_state()
-    std::optional<double> relaxed_area_difference;  ///< M0 / (8 pi R0)
-    double membrane_viscosity = 0;                  ///< Pa s m
-    std::optional<double> area;                     ///< A0, um^2
-    std::optional<double> volume;                   ///< V0, um^3
-    double cytosol_viscosity = 0;                   ///< Pa s
-    Triple position{};                              ///< um
-    Triple axis{};                                  ///< unit vector
-    bool operator==(const CellInput&) const = default;
-};
-
-/// [tweezers]: a cell pulled at both ends along x.
-struct TweezersInput {
-    double force = 0;  ///< pN
-    membrane::Grip grip;
-    double tolerance = 0;  ///< um/s; the run ends when both diameters change more slowly
-    bool operator==(const TweezersInput&) const = default;
-};
-
 /// [coupling]
 struct CouplingInput {
     Kernel kernel = Kernel::lagrange;
@@ -167,6 +130,9 @@ struct TimeInput {
     std::optional<double> duration;  ///< s
     std::optional<double> step;      ///< s; empty: numerics.step_strain, or chosen
     std::optional<double> steady;    ///< change of the velocity below which a run ends
+    bool adaptive = false;           ///< kind coupled: steps that follow the error
+    std::optional<double>
+        tolerance;  ///< of adaptive steps: position error per strain unit over R0; empty: chosen
     bool operator==(const TimeInput&) const = default;
 };
 
@@ -231,25 +197,6 @@ struct SweepInput {
     bool operator==(const SweepInput&) const = default;
 };
 
-/// [membrane]: a cell alone.
-struct MembraneInput {
-    MembraneTask task = MembraneTask::relax;
-    std::vector<double> forces;         ///< pN
-    membrane::Grip grip;                ///< what each bead holds
-    bool dynamic = false;               ///< stretch in overdamped motion in place of the static solver
-    double fluid_viscosity = 0;         ///< Pa s, of the surrounding fluid's drag in overdamped motion
-    double duration = 0;                ///< s, of overdamped motion
-    std::string experiment;             ///< CSV file to compare with, columns F_pN, DA_um, DT_um; "": none
-    std::vector<std::string> recovery;  ///< CSV files to compare with, columns t (s) and L_W
-    /// c0, and M0 in units of 8 pi R0, whose combinations the task shapes goes through; empty: the cell's own.
-    std::vector<double> curvatures, area_differences;
-    bool refine = false;                       ///< repeat each shape with four times as many nodes
-    std::array<double, 2> shear_bounds{};      ///< N/m, between which the task calibrate seeks K_S
-    std::array<double, 2> curvature_bounds{};  ///< and c0
-    double tolerance = 2e-4;                   ///< pN
-    bool operator==(const MembraneInput&) const = default;
-};
-
 /// [output]
 struct OutputInput {
     double interval_strain = 0.5;
@@ -259,7 +206,7 @@ struct OutputInput {
     double checkpoint_interval_strain = 5;      ///< 0: none
     std::optional<double> checkpoint_interval;  ///< s
     int compression = 1;                        ///< zlib level, 0: none
-    std::vector<std::string> fields;            ///< of velocity, density, viscosity, force
+    std::vector<std::string> fields;            ///< as the schema lists them
     bool pictures = true;
     std::optional<std::array<double, 2>> window_strain;  ///< empty: the last 60 % of the run
     bool operator==(const OutputInput&) const = default;

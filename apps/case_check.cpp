@@ -12,8 +12,6 @@
 namespace hemoflux::apps {
 namespace {
 
-double component(const Vec3d& v, std::size_t d) { return d == 0 ? v.x : d == 1 ? v.y : v.z; }
-
 /// The surface of cell number `index` must lie inside the box; periodic sides may be crossed.
 void check_inside(const Case& c, std::size_t index, const meshing::SurfaceMesh& surface,
                   const meshing::RectilinearGrid& grid) {

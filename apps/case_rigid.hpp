@@ -9,8 +9,11 @@
 
 namespace hemoflux::apps {
 
+/// body.shape, of a body without a file.
 enum class RigidShape { sphere, spheroid, cylinder };
+/// body.motion, see coupling::BodyFreedom.
 enum class RigidMotion { prescribed, torque_free, free };
+/// body.method, see coupling::BodyForcing.
 enum class RigidMethod { direct, feedback };
 
 /// One [[body]]; lengths um, velocities um/s, see the schema for the meaning.

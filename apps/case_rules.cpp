@@ -42,6 +42,24 @@ void need_tables(const toml::table& values, const std::string& name) {
     }
 }
 
+/// Tables that the kind of a case does not read. A case of kind membrane may keep those of the flow, so that
+/// --set kind=membrane takes the cells out of it.
+void refuse_unused_tables(const toml::table& values, const std::string& name) {
+    struct Unused {
+        const char *kind, *table, *why;
+    };
+    constexpr Unused unused[] = {{"fluid", "contact", "it acts between cells"},
+                                 {"fluid", "packing", "it places cells"},
+                                 {"fluid", "tweezers", "they pull a cell"},
+                                 {"fluid", "membrane", "it is a task for cells alone"},
+                                 {"coupled", "membrane", "it is a task for cells alone"}};
+    const std::string kind = values["kind"].value_or(std::string());
+    for (const Unused& u : unused)
+        if (kind == u.kind && values.contains(u.table))
+            refuse(name, fmt::format("[{}] in a case of kind \"{}\"", u.table, kind),
+                   fmt::format("{}, so it would have no effect", u.why), "Remove it, or choose another kind");
+}
+
 /// "periodic", a condition, or nothing, for one side.
 enum class Side { missing, periodic, condition };
 
@@ -203,6 +221,13 @@ void check_references(const toml::table& values, const std::string& name) {
     }
 }
 
+void check_watchdog(const toml::table& values, const std::string& name) {
+    const std::vector<double> density = Section(case_schema(), values).table("watchdog")->numbers("density");
+    if (!(density.at(0) < density.at(1)))
+        refuse(name, fmt::format("watchdog.density = [{}, {}]", density[0], density[1]),
+               "no density lies between these", "Give the lowest density first, e.g. [0.9, 1.1]");
+}
+
 void check_observables(const toml::table& values, const std::string& name) {
     const bool fluid = values["kind"].value_or(std::string()) == "fluid";
     if (values.contains("observables") && !fluid) {
@@ -220,6 +245,8 @@ void check_observables(const toml::table& values, const std::string& name) {
 
 void check_rules(const toml::table& resolved, const std::string& name) {
     need_tables(resolved, name);
+    refuse_unused_tables(resolved, name);
+    check_watchdog(resolved, name);
     check_grid(resolved, name);
     check_boundary(resolved, name);
     check_cells(resolved, name);

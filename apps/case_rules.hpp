@@ -14,4 +14,7 @@ void check_rules(const toml::table& resolved, const std::string& name);
 /// The part of them about patches, forces, exact solutions and sweeps.
 void check_flow_rules(const toml::table& resolved, const std::string& name);
 
+/// The part of them about the length of a run in time and its step.
+void check_time_rules(const toml::table& resolved, const std::string& name);
+
 }  // namespace hemoflux::apps

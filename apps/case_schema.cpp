@@ -42,10 +42,7 @@ Table grid_table() {
               {choice(kinds), choice(kinds).of(3)},
               "\"uniform\"",
               "spacing, of all axes or one word per axis"},
-             {"mesh",
-              {table(mesh_table())},
-              "",
-              "an unstructured mesh of hexahedra in place of the box, kind fluid"},
+             {"mesh", {table(mesh_table())}, "", "an unstructured mesh of hexahedra in place of the box"},
              {"length",
               {quantity_in("um").above(0, positive_length).up_to(1e9).of(3)},
               "",
@@ -125,7 +122,7 @@ Table numerics_table() {
          {"gradient",
           {choice({"least-squares", "green-gauss", "hybrid"})},
           "\"least-squares\"",
-          "kind fluid: operator for the gradients (A.29-A.35); hybrid on unstructured grids only"}}};
+          "operator for the gradients (A.29-A.35); hybrid on unstructured grids only"}}};
 }
 
 Table output_table() {
@@ -246,7 +243,18 @@ const Table& case_schema() {
                  "",
                  "kind fluid: ends the run when in a hundredth of its length the velocity changes by less "
                  "than "
-                 "this share (relative L2)"}}})},
+                 "this share (relative L2)"},
+                {"adaptive",
+                 {flag()},
+                 "false",
+                 "kind coupled: steps that follow the error of the nodes' motion, never longer than the one "
+                 "chosen for "
+                 "stability"},
+                {"tolerance",
+                 {automatic(), number().within(1e-9, 1, "a share of the radius R0")},
+                 "\"auto\"",
+                 "of adaptive: largest error in the position of a membrane node per strain unit, over R0; "
+                 "auto: 1e-3"}}})},
           "",
           "kinds coupled and fluid"},
          {"numerics", {table(numerics_table())}, "{}", "optional"},

@@ -16,7 +16,7 @@ Table cell_table() {
           "\"icosphere\"",
           "surface mesh: icosphere, or a mesh file of a sphere"},
          {"nodes",
-          {integer().within(42, 655362, "a cell needs at least 42 nodes to have a shape")},
+          {integer().within(42, 40962, "a cell needs at least 42 nodes to have a shape")},
           "2562",
           "nodes of the icosphere: 42, 162, 642, 2562, 10242, 40962"},
          {"shape",

@@ -70,10 +70,6 @@ double flow_reach(const Case& c, double sheared) {
     return flow ? flow->largest_speed() / c.shear_rate.value_or(flow->wall_rate()) : sheared;
 }
 
-double flow_reach(const Case& c, const meshing::RectilinearGrid& grid) {
-    return flow_reach(c, shear_reach(grid));
-}
-
 std::size_t packed_cells(const Case& c) {
     const double volume = rest_state(c.cells.front()).volume;
     const double box = box_volume(make_grid(c.grid));

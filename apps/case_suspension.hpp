@@ -17,10 +17,8 @@ PackingInput read_packing(const Section& in);
 /// axis that is periodic, or through a round pipe (grid.mesh) that repeats. Nothing for any other case.
 std::optional<fluid::DuctFlow> undisturbed_flow(const Case& c);
 
-/// Largest speed of the undisturbed flow over the shear rate of the case, um: the distance of a sheared wall from the
-/// plane at rest, or what the flow in a channel has instead.
-double flow_reach(const Case& c, const meshing::RectilinearGrid& grid);
-/// The same; sheared: that distance on this grid, um.
+/// Largest speed of the undisturbed flow over the shear rate of the case, um: `sheared`, the distance of a sheared wall
+/// from the plane at rest, or what the flow in a channel has instead.
 double flow_reach(const Case& c, double sheared);
 
 /// Completes a case after its tables are read: the clock of a flow driven by a force is the wall rate of the undisturbed

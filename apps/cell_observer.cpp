@@ -12,7 +12,6 @@ namespace hemoflux::apps {
 namespace {
 
 constexpr double pi = 3.14159265358979323846, degrees = 180 / pi;
-constexpr double attojoule_per_unit = 10;  // 1e-17 J
 
 /// Slope of y(x) by least squares over the records of the window; NaN with fewer than two.
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
@@ -85,10 +84,10 @@ std::vector<double> CellObserver::observe(membrane::Batch& cells, double strain)
             membrane::tank_treading_angle(positions[static_cast<std::size_t>(marked_[c])], m.centroid);
         turned_[c] += std::remainder(angle - turned_[c], 2 * pi);
         const double area_error = m.area / area0_[c] - 1, volume_error = m.volume / volume0_[c] - 1;
-        row.insert(row.end(),
-                   {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees, taylor,
-                    diameters.axial, diameters.transverse, area_error, volume_error,
-                    cells.energies(c).total() * attojoule_per_unit, index, of_volume, of_extent, ellipse});
+        row.insert(row.end(), {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees,
+                               taylor, diameters.axial, diameters.transverse, area_error, volume_error,
+                               cells.energies(c).total() * membrane::attojoule_per_unit, index, of_volume,
+                               of_extent, ellipse});
         inclination_.push_back(inclination);
         angle_.push_back(turned_[c]);
         taylor_.push_back(taylor);

@@ -93,7 +93,9 @@ std::string describe(const Case& c, const CoupledSystem& s) {
         c.cells.front().cytosol_viscosity / c.fluid.viscosity,
         c.shear_rate ? "G" : "no shear, clock G = K_S/(mu R0)", s.clock, n.capillary, n.physical_reynolds,
         n.lattice_viscosity, n.reynolds, n.mach, name_of(coupled_scheme(c)), n.step_strain, s.plan.steps,
-        n.step_seconds, n.step_limit, n.constraint_damping > 0 ? ", penalties damped" : "",
+        n.step_seconds, n.step_limit,
+        fmt::format("{}{}", n.constraint_damping > 0 ? ", penalties damped" : "",
+                    c.time.adaptive ? "; adaptive, this is the longest" : ""),
         n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa, n.force_factor);
     for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
     text += "(estimated)";

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/coupled_clock.hpp"
 #include "apps/output/plot.hpp"
 #include "apps/output/progress.hpp"
 #include "apps/suspension_observer.hpp"
@@ -55,8 +56,10 @@ class CoupledRun {
         if (SuspensionObserver::wanted(case_)) suspension_.emplace(case_, system_);
         prepare_stop(options_);
         files_.log().info(describe(case_, system_));
+        clock_.emplace(case_, system_);
         if (files_.restart()) {
             system_.load(*files_.restart());
+            clock_->load(*files_.restart(), files_.first_step());
             observer_->load(*files_.restart());
             if (suspension_) suspension_->load(*files_.restart());
             evaluations_before_ = files_.restart()->number("evaluations");
@@ -65,7 +68,7 @@ class CoupledRun {
             first_density_ = system_.fluid->mean_density();
         }
         watchdog_.emplace(case_.watchdog, observer_->first_volumes(), observer_->first_areas());
-        done_ = files_.first_step();
+        first_strain_ = clock_->now();
         std::vector<std::string> columns = history_columns(
             system_.cells->cells(), suspension_ ? suspension_->columns() : std::vector<std::string>{});
         if (system_.bodies) {
@@ -74,7 +77,7 @@ class CoupledRun {
             columns.insert(columns.end(), more.begin(), more.end());
         }
         files_.start_history(columns);
-        files_.start_series(system_.plan.at(done_));
+        files_.start_series(clock_->now());
         if (!files_.restart()) {
             record(0);
             frame();
@@ -82,36 +85,33 @@ class CoupledRun {
         if (files_.moved()) {
             system_.cells->compute_forces();
             frame();
-            files_.write_checkpoint(checkpoint(), done_);
+            files_.write_checkpoint(checkpoint(), clock_->done());
         }
-        good_ = checkpoint();
-        good_step_ = done_;
+        remember();
     }
 
     int march() {
-        output::Progress progress(system_.plan.at(done_), system_.plan.at(system_.plan.steps), "strain",
-                                  options_.quiet);
+        CoupledClock& clock = *clock_;
+        output::Progress progress(clock.now(), clock.end(), "strain", options_.quiet);
         const auto cells = static_cast<double>(system_.fluid->cells());
-        while (done_ < system_.plan.steps) {
-            const bool last = done_ + 1 == system_.plan.steps;
-            const bool write = last || due(system_.plan, done_ + 1, frame_interval());
-            const bool row = write || due(system_.plan, done_ + 1, row_interval());
+        while (!clock.ended()) {
+            const bool last = clock.last();
+            const bool write = last || clock.reaches(clock.intervals().frame);
+            const bool row = write || clock.reaches(clock.intervals().row);
+            const bool save = last || clock.reaches(clock.intervals().checkpoint);
             if (row && suspension_) suspension_->before_step();
-            system_.loop->step(system_.numerics.step);
-            ++done_;
-            const bool save = last || due(system_.plan, done_, save_interval());
-            const bool stop =
-                stop_asked(options_, {done_, system_.plan.at(done_), system_.plan.at(system_.plan.steps)});
-            if (row || save || stop || done_ % case_.watchdog.interval == 0) check();
-            if (row) record(system_.numerics.step);
+            clock.step();
+            const bool stop = stop_asked(options_, {clock.done(), clock.now(), clock.end()});
+            if (row || save || stop || clock.done() % case_.watchdog.interval == 0) check();
+            if (row) record(clock.taken());
             if (write) frame();
             if (row || save) remember();
-            if (save || stop) files_.write_checkpoint(checkpoint(), done_);
+            if (save || stop) files_.write_checkpoint(checkpoint(), clock.done());
             progress.update(
-                {done_, system_.plan.at(done_), cells * static_cast<double>(system_.fluid->evaluations())});
+                {clock.done(), clock.now(), cells * static_cast<double>(system_.fluid->evaluations())});
             if (row && settled()) {
-                system_.plan.steps = done_;  // the run ends here
-                files_.write_checkpoint(checkpoint(), done_);
+                clock.end_here();
+                files_.write_checkpoint(checkpoint(), clock.done());
                 if (!write) frame();
             }
             if (stop && !last) return static_cast<int>(Exit::interrupted);
@@ -125,7 +125,7 @@ class CoupledRun {
         if (!case_.tweezers) return false;
         constexpr double span = 2;
         const auto& rows = files_.rows();
-        const double now = system_.plan.at(done_);
+        const double now = clock_->now();
         const auto column = [](const char* name) {
             const auto& names = cell_columns();
             return 3 + static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -140,22 +140,6 @@ class CoupledRun {
         return false;
     }
 
-    /// Strain between two frames.
-    [[nodiscard]] double frame_interval() const {
-        return case_.output.interval ? *case_.output.interval * system_.clock : case_.output.interval_strain;
-    }
-
-    /// Strain between two rows of the history, and between two checkpoints.
-    [[nodiscard]] double row_interval() const {
-        const OutputInput& out = case_.output;
-        return out.history_interval ? *out.history_interval * system_.clock : out.history_interval_strain;
-    }
-    [[nodiscard]] double save_interval() const {
-        const OutputInput& out = case_.output;
-        return out.checkpoint_interval ? *out.checkpoint_interval * system_.clock
-                                       : out.checkpoint_interval_strain;
-    }
-
     /// Throws NumericalError when fluid or cells have gone wrong.
     void check() const {
         system_.loop->check();
@@ -163,17 +147,18 @@ class CoupledRun {
         watchdog_->check(*system_.cells);
     }
 
-    /// step: length of the step that ends here, 0 at the start.
+    /// step: length in strain of the step that ends here, 0 at the start.
     void record(double step) {
-        const double strain = system_.plan.at(done_);
-        std::vector<double> row{static_cast<double>(done_), strain / system_.clock, strain};
+        const double strain = clock_->now();
+        std::vector<double> row{static_cast<double>(clock_->done()), strain / system_.clock, strain};
         // before the cells' own observer, which computes the forces anew
-        const auto all = suspension_ ? suspension_->observe(strain, step) : std::vector<double>{};
+        const auto all =
+            suspension_ ? suspension_->observe(strain, step / system_.numerics.rate) : std::vector<double>{};
         const auto cells = observer_->observe(*system_.cells, strain);
         row.insert(row.end(), cells.begin(), cells.end());
         row.insert(row.end(), all.begin(), all.end());
         row.insert(row.end(), {system_.fluid->mean_density(), system_.fluid->residual_norm().density,
-                               system_.numerics.step_seconds});
+                               clock_->taken() / system_.clock});
         if (system_.bodies) {
             const auto bodies = system_.bodies->row();
             row.insert(row.end(), bodies.begin(), bodies.end());
@@ -182,7 +167,7 @@ class CoupledRun {
     }
 
     void frame() {
-        const double at = system_.plan.at(done_);
+        const double at = clock_->now();
         if (const fluid::Solver* box = system_.box_solver())
             files_.write_frame(case_, system_.scales, *box, system_.cells.get(), system_.bodies.get(), at);
         else
@@ -193,19 +178,21 @@ class CoupledRun {
     /// Keeps the state in memory, as the last one known to be good.
     void remember() {
         good_ = checkpoint();
-        good_step_ = done_;
+        good_step_ = clock_->done();
+        good_strain_ = clock_->now();
     }
 
     void keep_last_good_state() {
         files_.write_checkpoint(good_, good_step_);
         files_.log().warn(fmt::format("the last good state (step {}, strain {:.4g}) is kept in {}",
-                                      good_step_, system_.plan.at(good_step_),
+                                      good_step_, good_strain_,
                                       output::checkpoint_file(files_.folder().path(), good_step_).string()));
     }
 
     [[nodiscard]] output::Checkpoint checkpoint() const {
         output::Checkpoint cp;
         system_.save(cp);
+        clock_->save(cp);
         observer_->save(cp);
         if (suspension_) suspension_->save(cp);
         cp.put_number("evaluations", evaluations());
@@ -221,10 +208,10 @@ class CoupledRun {
         if (code == static_cast<int>(Exit::interrupted)) {
             files_.log().warn(
                 fmt::format("interrupted at strain {:.4g}; continue with: hemoflux run --restart {}",
-                            system_.plan.at(done_), files_.folder().path().string()));
+                            clock_->now(), files_.folder().path().string()));
             return;
         }
-        const double strain = system_.plan.at(done_);
+        const double strain = clock_->now();
         output::Summary s = start_summary(case_);
         const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
         s.observables = observer_->observables(window[0], window[1]);
@@ -241,10 +228,10 @@ class CoupledRun {
         s.conservation.area = observer_->area_error();
         s.conservation.mean_density_per_strain = (system_.fluid->mean_density() - first_density_) / strain;
         s.conservation.centroid_um = observer_->centroid_distance();
-        const double here = strain - system_.plan.at(files_.first_step());
+        const double here = strain - first_strain_;
         s.performance.wall_s = wall_s_;
-        s.performance.cpu_s = output::cpu_seconds();
-        s.performance.steps = static_cast<double>(done_);
+        s.performance.cpu_s = output::cpu_seconds() - cpu_before_;
+        s.performance.steps = static_cast<double>(clock_->done());
         s.performance.residuals_per_strain = evaluations() / strain;
         s.performance.cell_residuals_per_s = static_cast<double>(system_.fluid->evaluations()) *
                                              static_cast<double>(system_.fluid->cells()) / wall_s_;
@@ -253,6 +240,7 @@ class CoupledRun {
         s.errors_estimated = system_.numerics.errors;
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
+        if (const std::string steps = clock_->report(); !steps.empty()) files_.log().info(steps);
         plot_inclination();
         if (system_.domain.box) draw_pictures(case_, files_, "strain");
         files_.log().info(closing_line(files_.folder().path()));
@@ -275,12 +263,15 @@ class CoupledRun {
 
     const Case& case_;
     const RunOptions& options_;
+    const double cpu_before_ = output::cpu_seconds();  // a sweep makes many runs in one process
     CoupledSystem system_;  // before the files: a case that it refuses leaves nothing behind
     RunFiles files_;
+    std::optional<CoupledClock> clock_;
     std::optional<CellObserver> observer_;
     std::optional<SuspensionObserver> suspension_;
     std::optional<Watchdog> watchdog_;
-    long long done_ = 0, good_step_ = 0;
+    long long good_step_ = 0;
+    double good_strain_ = 0, first_strain_ = 0;
     std::size_t body_column_ = 0;
     output::Checkpoint good_;
     double evaluations_before_ = 0, first_density_ = 1, wall_s_ = 0;

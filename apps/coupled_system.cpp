@@ -237,6 +237,7 @@ std::unique_ptr<coupling::Loop> CoupledSystem::make_loop(const Case& c, std::vec
     o.kernel = kernel_of(c.coupling.kernel);
     o.force_factor = n.force_factor;
     o.constraint_damping = n.constraint_damping;
+    o.damped_step = n.step;
     o.recentre = c.coupling.recentre;
     o.smoothing.local_cells = c.coupling.smoothing;
     if (c.contact) o.contact = contact_options(c, *cells, smallest());

@@ -26,6 +26,7 @@ class ErrorObserver {
     /// Velocity in x in the middle of the box, computed and exact, um/s.
     [[nodiscard]] std::array<double, 2> centre(const fluid::Flow& flow, double time) const;
 
+    /// State for a checkpoint, and back.
     void save(output::Checkpoint& checkpoint) const;
     void load(const output::Checkpoint& checkpoint);
 

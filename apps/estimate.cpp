@@ -70,7 +70,7 @@ std::string of_coupled(const Case& c) {
            line("lattice viscosity", fmt::format("nu/h = {:.3g}", n.lattice_viscosity)) +
            line("step", fmt::format("{:.4g} s, in strain {:.4g}; limit: {}", n.step_seconds, n.step_strain,
                                     n.step_limit)) +
-           line("steps", fmt::format("{}", s.plan.steps)) +
+           line("steps", fmt::format("{}{}", c.time.adaptive ? "adaptive, at least " : "", s.plan.steps)) +
            estimates(
                steps * step * (1 + cells_per_node * nodes / cells), nodes,
                fmt::format(

@@ -21,9 +21,6 @@ constexpr const char* components = "uvw";
 constexpr const char* axes = "xyz";
 constexpr int samples = 401;
 
-double& component(Vec3d& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-double component(const Vec3d& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 double reference_speed(const Case& c) {
     const double speed = c.observables->speed.value_or(fastest_side(c));
     if (!(speed > 0))

@@ -23,8 +23,8 @@ struct FlowBox {
 /// Takes the observables of a flow at its end and writes and draws its profiles.
 class FlowObserver {
   public:
-    /// Reads the reference profiles. gamma: of the solver, p = gamma rho / 3. InputError when they cannot be compared with, when a patch is not there or there
-    /// is no reference speed; FileError.
+    /// Reads the reference profiles. gamma: of the solver, p = gamma rho / 3. InputError when they cannot be compared
+    /// with, when a patch is not there or there is no reference speed; FileError.
     FlowObserver(const Case& c, const Scales& scales, const FlowBox& box, double gamma,
                  const fluid::Flow& flow);
 

@@ -41,7 +41,4 @@ coupling::Kernel kernel_of(Kernel kernel);
 fluid::Scheme scheme_of(TimeScheme scheme);
 fluid::GradientMethod gradient_of(Gradient gradient);
 
-/// Largest |y| of the box, um: where a shear flow about y = 0 is fastest.
-double shear_reach(const meshing::RectilinearGrid& grid);
-
 }  // namespace hemoflux::apps

@@ -21,6 +21,9 @@
 namespace hemoflux::apps {
 namespace {
 
+/// Names in a checkpoint of the velocity that the next look for the steady state compares with.
+constexpr const char* looked_at[] = {"steady.u", "steady.v", "steady.w"};
+
 class FluidRun {
   public:
     FluidRun(const Case& c, const RunOptions& options)
@@ -55,6 +58,8 @@ class FluidRun {
             load_flow(*system_.flow, *files_.restart());
             first_density_ = files_.restart()->number("first_density");
             if (system_.errors) system_.errors->load(*files_.restart());
+            if (case_.time.steady)
+                for (std::size_t q = 0; q < 3; ++q) velocity_[q] = files_.restart()->array(looked_at[q]);
             if (system_.bodies) {
                 system_.bodies->load(*files_.restart());
                 system_.loop->restore({});
@@ -190,6 +195,8 @@ class FluidRun {
         cp.put_number("evaluations", evaluations());
         if (system_.errors) system_.errors->save(cp);
         if (system_.bodies) system_.bodies->save(cp);
+        if (case_.time.steady)
+            for (std::size_t q = 0; q < 3; ++q) cp.put(looked_at[q], velocity_[q]);
         return cp;
     }
 
@@ -219,13 +226,7 @@ class FluidRun {
             s.conservation.mean_density_per_strain = (system_.flow->mean_density() - first_density_) / strain;
             s.performance.residuals_per_strain = evaluations() / strain;
         }
-        s.performance.wall_s = wall_s_;
-        s.performance.cpu_s = output::cpu_seconds();
-        s.performance.steps = static_cast<double>(done_);
-        s.performance.cell_residuals_per_s = static_cast<double>(system_.flow->evaluations()) *
-                                             static_cast<double>(system_.flow->cells()) / wall_s_;
-        s.performance.peak_rss_mib = output::peak_rss_mib();
-        s.errors_estimated["compressibility"] = system_.mach * system_.mach;
+        add_performance(s, system_, static_cast<double>(done_), wall_s_, output::cpu_seconds() - cpu_before_);
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         draw();
@@ -258,8 +259,8 @@ class FluidRun {
         for (const auto& row : files_.rows()) {
             computed.x.push_back(row[1]);
             exact.x.push_back(row[1]);
-            computed.y.push_back(row[row.size() - 2]);
-            exact.y.push_back(row.back());
+            computed.y.push_back(row[body_column_ - 2]);  // the columns of bodies come behind
+            exact.y.push_back(row[body_column_ - 1]);
         }
         plot.curves = {exact, computed};
         if (const auto message = output::plot(plot, files_.folder().path() / "plot_centre"))
@@ -268,6 +269,7 @@ class FluidRun {
 
     const Case& case_;
     const RunOptions& options_;
+    const double cpu_before_ = output::cpu_seconds();  // a sweep makes many runs in one process
     FluidSystem system_;  // before the files: a case that it refuses leaves nothing behind
     std::optional<FlowObserver> observer_;
     RunFiles files_;

@@ -178,6 +178,17 @@ std::string describe(const Case& c, const FluidSystem& s) {
            (s.bodies ? s.bodies->describe() : "");
 }
 
+void add_performance(output::Summary& summary, const FluidSystem& system, double steps, double wall_s,
+                     double cpu_s) {
+    summary.performance.wall_s = wall_s;
+    summary.performance.cpu_s = cpu_s;
+    summary.performance.steps = steps;
+    summary.performance.cell_residuals_per_s =
+        static_cast<double>(system.flow->evaluations()) * static_cast<double>(system.flow->cells()) / wall_s;
+    summary.performance.peak_rss_mib = output::peak_rss_mib();
+    summary.errors_estimated["compressibility"] = system.mach * system.mach;
+}
+
 void save_flow(const fluid::Flow& flow, output::Checkpoint& checkpoint) {
     for (int q = 0; q < 4; ++q) checkpoint.put(field_names[q], flow.values(q));
 }

@@ -10,6 +10,7 @@
 #include "apps/flow_observer.hpp"
 #include "apps/flow_setup.hpp"
 #include "apps/output/checkpoint.hpp"
+#include "apps/output/summary.hpp"
 #include "apps/rigid_bodies.hpp"
 #include "apps/schedule.hpp"
 #include "fluid/hex_solver.hpp"
@@ -53,6 +54,7 @@ class FluidSystem {
     [[nodiscard]] const fluid::Solver* box_solver() const {
         return dynamic_cast<const fluid::Solver*>(flow.get());
     }
+    /// Of the flow, on whatever grid.
     [[nodiscard]] const fluid::SolverOptions& options() const;
     /// Smallest cell width; on a mesh the smallest cube root of a volume, um.
     [[nodiscard]] double smallest() const;
@@ -66,6 +68,11 @@ class FluidSystem {
 
 /// What a run prints first: grid, numbers, conversion.
 std::string describe(const Case& c, const FluidSystem& system);
+
+/// What a run of so many steps cost, and its estimated error, for the summary. wall_s, cpu_s: its own, without those of
+/// earlier runs of the process.
+void add_performance(output::Summary& summary, const FluidSystem& system, double steps, double wall_s,
+                     double cpu_s);
 
 /// Density and velocity of a flow for a checkpoint, and back.
 void save_flow(const fluid::Flow& flow, output::Checkpoint& checkpoint);

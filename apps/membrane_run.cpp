@@ -18,6 +18,17 @@
 #include "membrane/fields.hpp"
 
 namespace hemoflux::apps {
+namespace {
+
+/// thickness.csv: how thick the cell is at each distance from its axis.
+void write_thickness(const MembraneRun& run, const membrane::Batch& batch) {
+    output::Table table{{"radius_um", "mean_um", "least_um", "greatest_um"}, {}};
+    for (const auto& s : membrane::thickness_profile(batch.topology().triangles(), batch.positions(0)))
+        table.rows.push_back({s.radius, s.mean, s.least, s.greatest});
+    output::write_table(run.folder.path() / "thickness.csv", table);
+}
+
+}  // namespace
 
 std::string MembraneRun::label(std::size_t cell) const {
     const std::string& name = input.cells[cell].name;
@@ -99,13 +110,6 @@ void MembraneRun::gallery(const output::GallerySpec& spec, const std::string& st
     if (const auto message = output::draw_gallery(spec, folder.path() / (stem + ".png"))) log.warn(*message);
 }
 
-void write_thickness(const MembraneRun& run, const membrane::Batch& batch) {
-    output::Table table{{"radius_um", "mean_um", "least_um", "greatest_um"}, {}};
-    for (const auto& s : membrane::thickness_profile(batch.topology().triangles(), batch.positions(0)))
-        table.rows.push_back({s.radius, s.mean, s.least, s.greatest});
-    output::write_table(run.folder.path() / "thickness.csv", table);
-}
-
 void run_relax(MembraneRun& run) {
     output::GallerySpec gallery{.title = run.input.title, .items = {}};
     for (std::size_t i = 0; i < run.input.cells.size(); ++i) {
@@ -136,6 +140,7 @@ int run_membrane(const Case& c, const RunOptions& options) {
     }
     check_experiment(c.membrane);
     const auto start = std::chrono::steady_clock::now();
+    const double cpu_before = output::cpu_seconds();
     if (options.threads > 0) {
         exchange::set_threads(options.threads);
     }
@@ -156,7 +161,7 @@ int run_membrane(const Case& c, const RunOptions& options) {
         tasks[static_cast<std::size_t>(c.membrane.task)](run);
         summary.performance.wall_s =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        summary.performance.cpu_s = output::cpu_seconds();
+        summary.performance.cpu_s = output::cpu_seconds() - cpu_before;
         summary.performance.peak_rss_mib = output::peak_rss_mib();
         output::write_summary(folder.summary(), summary);
         log.info(output::to_table(summary));

@@ -17,8 +17,7 @@
 
 namespace hemoflux::apps {
 
-inline constexpr double piconewton = 0.1;           ///< 1 pN in 1e-11 N
-inline constexpr double attojoule_per_unit = 10;    ///< of 1e-17 J
+using membrane::attojoule_per_unit, membrane::piconewton;
 inline constexpr double micronewton_per_unit = 10;  ///< uN/m of 1e-5 N/m
 inline constexpr double second = 1e5;               ///< 1 s in 1e-5 s
 inline constexpr double pascal_second = 1e4;        ///< 1 Pa s in 1e-4 Pa s

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
@@ -102,8 +103,9 @@ void make_rbc_file(const RbcArguments& in) {
         meshing::write_surface(in.file, mesh);
     }
     const meshing::SurfaceQuality quality = meshing::quality(mesh);
-    fmt::print("nodes            {}\ntriangles        {}\nedges            {}\n", mesh.vertices.size(),
-               mesh.triangles.size(), quality.edges);
+    fmt::print("nodes            {}\ntriangles        {}\nedges            {} (Euler characteristic {})\n",
+               mesh.vertices.size(), mesh.triangles.size(), quality.edges, quality.euler_characteristic);
+    fmt::print("nodes by edges   {}\n", quality.valences);
     fmt::print("edge length      {:.6g} (mean {:.6g}) .. {:.6g} um\nsmallest angle   {:.4g} degrees\n",
                quality.shortest_edge, quality.mean_edge, quality.longest_edge, quality.smallest_angle);
     fmt::print("area             {:.6g} um^2\nvolume           {:.6g} um^3\nreduced volume   {:.6g}\n",

@@ -147,7 +147,7 @@ void Checker::check_as(const Form& form, const toml::node& value, toml::table& o
         toml::array files;
         for (const toml::node& item : *value.as_array())
             files.push_back((folder_ / *item.value<std::string>()).lexically_normal().string());
-        out.insert_or_assign(key_.name, std::move(files));
+        out.insert_or_assign(name_, std::move(files));
     } else if (form.type == Type::path) {
         const fs::path file = *value.value<std::string>();
         out.insert_or_assign(name_, (folder_ / file).lexically_normal().string());

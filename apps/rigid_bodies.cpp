@@ -104,7 +104,8 @@ std::string RigidBodies::describe() const {
             "\n  body          {}: {} nodes, {:.2g} per square of the cells around it ({:.4g} um), {}",
             bodies_[i]->name(), bodies_[i]->nodes(), s.nodes_per_square(cell_[i]), cell_[i],
             case_.bodies[i].method == RigidMethod::direct ? "direct forcing" : "springs");
-        if (s.nodes_per_square(cell_[i]) < 1.4) text += "; fewer than 1.4 let the flow through between them";
+        if (s.nodes_per_square(cell_[i]) < fewest_nodes)
+            text += fmt::format("; fewer than {} let the flow through between them", fewest_nodes);
     }
     return text;
 }

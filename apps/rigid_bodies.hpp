@@ -45,12 +45,16 @@ class RigidBodies {
         std::vector<meshing::SurfaceMesh> meshes;
         std::vector<Vec3d> forces_pn;
     };
+    /// The bodies as they are now.
     [[nodiscard]] Frame frame() const;
 
+    /// State for a checkpoint, and back.
     void save(output::Checkpoint& checkpoint) const;
     void load(const output::Checkpoint& checkpoint);
 
+    /// Number of bodies.
     [[nodiscard]] std::size_t size() const { return bodies_.size(); }
+    /// The bodies themselves, in the order of the case.
     [[nodiscard]] std::vector<coupling::RigidBody*> all() const;
 
   private:

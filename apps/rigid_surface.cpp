@@ -15,9 +15,6 @@
 namespace hemoflux::apps {
 namespace {
 
-/// Nodes per square of a cell below which the Lagrange kernel lets the flow through.
-constexpr double fewest_nodes = 1.4;
-
 /// Extent of a body from its centre, um, at most.
 double reach(const RigidInput& b) {
     if (!b.file.empty()) return 0;

@@ -9,6 +9,9 @@
 
 namespace hemoflux::apps {
 
+/// Nodes per square of a cell below which the Lagrange kernel lets the flow through between them.
+inline constexpr double fewest_nodes = 1.4;
+
 /// Cube root of the volume of the smallest cells that the body's surroundings have at the start, um.
 double cells_around(const RigidInput& body, const coupling::FluidGrid& grid);
 

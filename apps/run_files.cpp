@@ -12,6 +12,7 @@
 #include "apps/speed.hpp"
 #include "exchange/backend.hpp"
 #include "exchange/error.hpp"
+#include "fluid/vorticity.hpp"
 
 namespace hemoflux::apps {
 namespace {
@@ -28,15 +29,10 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
 
 /// Curl of the velocity in every cell, from the solver's own gradients, times `factor`.
 output::DataArray vorticity(const fluid::Flow& flow, double factor) {
-    const auto gradients = flow.gradients();
-    std::vector<double> x(gradients.size()), y(gradients.size()), z(gradients.size());
-    for (std::size_t i = 0; i < gradients.size(); ++i) {
-        const auto& [density, u, v, w] = gradients[i];
-        x[i] = factor * (w.y - v.z);
-        y[i] = factor * (u.z - w.x);
-        z[i] = factor * (v.x - u.y);
-    }
-    return output::vector_array("vorticity_1_per_s", x, y, z);
+    output::DataArray curl{"vorticity_1_per_s", 3, {}};
+    for (const Vec3d& w : fluid::vorticity(flow.gradients()))
+        curl.values.insert(curl.values.end(), {factor * w.x, factor * w.y, factor * w.z});
+    return curl;
 }
 
 /// The fields the case asks for, in physical units.
@@ -228,7 +224,7 @@ void RunFiles::write_surfaces(const membrane::Batch* cells, const RigidBodies* b
     for (std::size_t i = 0; cells && i < cells->cells(); ++i) {
         meshes.push_back({cells->positions(i), cells->topology().triangles()});
         meshing::translate(meshes.back(), into_box(box, meshes.back().vertices));
-        constexpr double piconewton_per_unit = 10;
+        constexpr double piconewton_per_unit = 1 / membrane::piconewton;
         for (const Vec3d& f : cells->forces(i)) {
             fx.push_back(f.x * piconewton_per_unit);
             fy.push_back(f.y * piconewton_per_unit);

@@ -43,6 +43,7 @@ class RunFiles {
 
     /// Starts history.csv with these columns ("step" first); after a restart with the rows of the checkpoint.
     void start_history(const std::vector<std::string>& columns);
+    /// Adds a row to history.csv; one value for each column.
     void add_row(const std::vector<double>& row);
 
     /// Opens the series, without the frames later than `position`.
@@ -58,7 +59,9 @@ class RunFiles {
     /// Writes a checkpoint with version, case, step and the history up to this step added.
     void write_checkpoint(output::Checkpoint checkpoint, long long step);
 
+    /// Where the run writes.
     [[nodiscard]] const output::OutputFolder& folder() const { return folder_; }
+    /// What goes to the terminal and to log.txt.
     [[nodiscard]] const output::Log& log() const { return log_; }
     /// Rows of history.csv.
     [[nodiscard]] const std::vector<std::vector<double>>& rows() const { return rows_; }

@@ -9,6 +9,7 @@ namespace hemoflux::apps {
 struct StepPlan {
     long long steps = 0;
     double step = 0;
+    /// end and wished step in the same unit, positive.
     StepPlan(double end, double wished) {
         steps = static_cast<long long>(std::ceil(end / wished - 1e-9));
         if (steps < 1) steps = 1;
@@ -18,12 +19,17 @@ struct StepPlan {
     [[nodiscard]] double at(long long done) const { return step * static_cast<double>(done); }
 };
 
-/// True when a multiple of `interval` is reached by the step that ends at step number `done`; depends on the
-/// step number only, so that a restarted run does the same. Never for interval <= 0.
-inline bool due(const StepPlan& plan, long long done, double interval) {
+/// True when a multiple of `interval` is reached on the way from one position to another. Never for interval <= 0.
+inline bool due(double from, double to, double interval) {
     if (!(interval > 0)) return false;
-    const auto events = [&](long long n) { return std::floor(plan.at(n) / interval + 1e-6); };
-    return events(done) > events(done - 1);
+    const auto events = [&](double at) { return std::floor(at / interval + 1e-6); };
+    return events(to) > events(from);
+}
+
+/// The same for the step that ends at step number `done`; depends on the step number only, so that a restarted run does
+/// the same.
+inline bool due(const StepPlan& plan, long long done, double interval) {
+    return due(plan.at(done - 1), plan.at(done), interval);
 }
 
 }  // namespace hemoflux::apps

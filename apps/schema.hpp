@@ -47,6 +47,8 @@ struct Form {
     [[nodiscard]] std::string range() const;
 };
 
+/// The forms of a value: a quantity that arrives in `unit`, a number, a whole number, true or false, any text, a path
+/// (which becomes absolute), one of some words, a table.
 Form quantity_in(std::string unit);
 Form number();
 Form integer();

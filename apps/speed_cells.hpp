@@ -28,8 +28,8 @@ struct CellSpeed {
     std::vector<CellRun> runs;    ///< optical tweezers first: its step is that of Table 8.6
 };
 
-/// Sets the problems up with the thesis's numbers of cells and nodes and measures some steps of each. Lattice viscosity, Re_G
-/// and the step are ours. quick: few nodes and cells, one short sample.
+/// Sets the problems up with the thesis's numbers of cells and nodes and measures some steps of each. Lattice
+/// viscosity, Re_G and the step are ours. quick: few nodes and cells, one short sample.
 CellSpeed time_cells(bool quick);
 
 /// Tables 8.5, 8.6 and 7.1 with the thesis's columns beside ours.

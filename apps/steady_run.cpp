@@ -196,13 +196,8 @@ class SteadyRun {
             system_.errors->report(s);
             warn(system_.errors->write(files_.folder(), case_.title, case_.output.pictures));
         }
-        s.performance.wall_s = wall_s_;
-        s.performance.cpu_s = output::cpu_seconds();
-        s.performance.steps = static_cast<double>(result_.last.iteration);
-        s.performance.cell_residuals_per_s = static_cast<double>(system_.flow->evaluations()) *
-                                             static_cast<double>(system_.flow->cells()) / wall_s_;
-        s.performance.peak_rss_mib = output::peak_rss_mib();
-        s.errors_estimated["compressibility"] = system_.mach * system_.mach;
+        add_performance(s, system_, static_cast<double>(result_.last.iteration), wall_s_,
+                        output::cpu_seconds() - cpu_before_);
         output::write_summary(files_.folder().summary(), s);
         files_.log().info(output::to_table(s));
         draw();
@@ -225,6 +220,7 @@ class SteadyRun {
 
     const Case& case_;
     const RunOptions& options_;
+    const double cpu_before_ = output::cpu_seconds();  // a sweep makes many runs in one process
     FluidSystem system_;
     std::unique_ptr<coupling::HeldBodies> held_;  ///< where the case has bodies
     std::optional<FlowObserver> observer_;

@@ -9,8 +9,6 @@
 namespace hemoflux::apps {
 namespace {
 
-double component(const Vec3d& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 /// Between walls that shear what is periodic along them.
 bool plain_shear(const Case& c) {
     const auto shears = [](const PatchInput& side) { return side.velocity == VelocityCondition::shear; };

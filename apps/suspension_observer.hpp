@@ -38,6 +38,7 @@ class SuspensionObserver {
     /// the box and, in a channel, of what flows out.
     [[nodiscard]] std::map<std::string, double> observables(double from, double to) const;
 
+    /// State for a checkpoint, and back.
     void save(output::Checkpoint& checkpoint) const;
     void load(const output::Checkpoint& checkpoint);
 

@@ -95,14 +95,21 @@ std::string entry(const SweepResults& r, std::size_t i, const std::string& name,
     return fmt::format(fmt::runtime(format), observed(r.rows[i], name));
 }
 
+/// A text as a cell of a table: quoted where it holds a comma or quotes, which are doubled (RFC 4180).
+std::string csv_cell(const std::string& text) {
+    if (text.find_first_of(",\"") == std::string::npos) return text;
+    std::string cell = "\"";
+    for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+    return cell + "\"";
+}
+
 std::string csv(const SweepResults& r, const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& key : r.sweep.keys) text += key + ",";
     text += fmt::format("{}\n", fmt::join(names, ","));
     for (std::size_t i = 0; i < r.points.size(); ++i) {
         for (const std::string& value : r.points[i]) {
-            std::string cell = bare(value);
-            text += (cell.find(',') == std::string::npos ? cell : "\"" + cell + "\"") + ",";
+            text += csv_cell(bare(value)) + ",";
         }
         for (std::size_t n = 0; n < names.size(); ++n)
             text += entry(r, i, names[n], "{}") + (n + 1 < names.size() ? "," : "\n");

@@ -17,9 +17,9 @@ struct SweepResults {
     std::vector<std::map<std::string, std::string>> labels = {};  ///< of every run, or none at all
 };
 
-/// Orders of convergence and limits of the observables the case asks for, by name: order_NAME and limit_NAME, with the values of the other keys
-/// behind it where they are combined as a product. Counted as positive when the observable falls with finer cells or
-/// shorter steps.
+/// Orders of convergence and limits of the observables the case asks for, by name: order_NAME and limit_NAME, with the
+/// values of the other keys behind it where they are combined as a product. Counted as positive when the observable
+/// falls with finer cells or shorter steps.
 std::map<std::string, double> sweep_orders(const SweepResults& results);
 
 /// Writes sweep.csv, summary.json and plot_sweep.svg/png into the folder, and prints the table.

@@ -39,19 +39,23 @@ std::string to_toml(const Table& schema, const toml::table& resolved);
 /// Typed access to a resolved table; quantities arrive in the unit of the schema. Keys must be in the schema.
 class Section {
   public:
+    /// values: resolved by this schema; both must outlive the section.
     Section(const Table& schema, const toml::table& values) : schema_(&schema), values_(&values) {}
 
+    /// Whether the key is there.
     [[nodiscard]] bool has(const std::string& key) const { return values_->contains(key); }
     /// A quantity or number; throws std::logic_error when the key has no such value.
     [[nodiscard]] double number(const std::string& key) const;
     /// The same, nullopt when the key is absent or one of its words (such as "auto").
     [[nodiscard]] std::optional<double> maybe(const std::string& key) const;
     [[nodiscard]] std::vector<double> numbers(const std::string& key) const;  ///< empty when absent
+    /// Three numbers or quantities; std::logic_error when the key has no such value, as for the following.
     [[nodiscard]] std::array<double, 3> vector(const std::string& key) const;
     [[nodiscard]] int integer(const std::string& key) const;
     [[nodiscard]] bool flag(const std::string& key) const;
     [[nodiscard]] std::string text(const std::string& key) const;  ///< "" when absent or not a text
     [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;  ///< of a text: itself
+    /// The table of that key, if it is there.
     [[nodiscard]] std::optional<Section> table(const std::string& key) const;
     [[nodiscard]] std::vector<Section> tables(const std::string& key) const;  ///< of an array of tables
     [[nodiscard]] std::vector<std::string> keys() const;                      ///< all that are given

@@ -13,6 +13,7 @@ namespace hemoflux::apps {
 /// Throws NumericalError that names the first cell whose density is outside the bounds.
 void check_density(const WatchdogInput& in, const fluid::Flow& flow);
 
+/// Bounds on how far the cells may drift from their volume and area.
 class Watchdog {
   public:
     /// volume, area: of each cell at the start of the run, um^3 and um^2.

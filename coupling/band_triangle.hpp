@@ -28,6 +28,13 @@ struct CellBox {
     int last[3];
 };
 
+/// Lattice units of the inside test per um, a power of two: 65536 or more per smallest cell. Fine enough not to
+/// matter (1e-5 of a cell), and coarse enough that edge functions of triangles up to 1000 cells wide fit the
+/// 53 bits of a double.
+inline double inside_test_lattice(double smallest_cell) {
+    return std::exp2(std::ceil(std::log2(65536 / smallest_cell)));
+}
+
 /// A triangle (a, b, c) prepared for many distance evaluations; lengths in um.
 struct BandTriangle {
     Vec3d a, ab, ac;
@@ -90,6 +97,7 @@ HEMOFLUX_INLINE CellBox band_box(const CellGridView& grid, const Vec3d& a, const
 struct RowTerms {
     double yz2, d1, d2, s;
 
+    /// Of the row of cells at (y, z), um.
     HEMOFLUX_INLINE RowTerms(const BandTriangle& t, double y, double z) {
         const double dy = y - t.a.y, dz = z - t.a.z;
         yz2 = dy * dy + dz * dz;

@@ -62,10 +62,11 @@ struct BodyLoad {
     Vec3d torque{0, 0, 0};   ///< t
 };
 
-/// Velocity and angular velocity at the end of a step of dt that balance the sums; `before` is the state at its start.
+/// Velocity of the centre, and angular velocity.
 struct BodyVelocity {
     Vec3d velocity, angular_velocity;
 };
+/// The velocities at the end of a step of dt that balance the sums; `before` is the state at its start.
 BodyVelocity balance(BodyFreedom freedom, const BodyState& before, const NodeSums& sums, const BodyLoad& load,
                      double dt);
 

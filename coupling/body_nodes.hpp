@@ -24,12 +24,17 @@ struct SlipSums {
 /// Owns positions, areas, gains and forces of the nodes.
 class BodyNodes {
   public:
+    /// Nodes at the places of the surface, without forces or gains.
     explicit BodyNodes(const BodySurface& surface);
     ~BodyNodes();
 
+    /// Number of nodes.
     [[nodiscard]] std::size_t size() const { return area_.size(); }
+    /// Where the nodes are, um.
     [[nodiscard]] exchange::FieldView positions();
+    /// F_j, on the fluid, rho_0 c^2 um^2.
     [[nodiscard]] exchange::FieldView forces();
+    /// Scratch vector for the fluid's velocity, or its response, at the nodes.
     [[nodiscard]] exchange::FieldView velocities();
     /// Scratch vector of the nodes.
     [[nodiscard]] exchange::FieldView increments();
@@ -40,9 +45,9 @@ class BodyNodes {
     void areas_to_increments();
     /// K_j = share A_j.
     void set_uniform_gains(double share);
-    /// K_j = A_j / (dt |r_j|), r_j the response in component x of `velocities` to a unit force per area; and the
-    /// largest |r_j|.
+    /// K_j = A_j / (dt |r_j|), r_j the response in component x of `velocities` to a unit force per area.
     void set_gains_from_response(double dt);
+    /// The largest |r_j|.
     [[nodiscard]] double largest_response();
 
     /// Sums for balance(), u the fluid's velocity at the nodes.
@@ -51,6 +56,7 @@ class BodyNodes {
     void correct(const BodyState& state, const exchange::FieldView& u, bool add);
     /// u_j = base_j + factor * velocities_j, in place of velocities.
     void combine(const exchange::FieldView& base, double factor);
+    /// Sums over the nodes of how far the fluid's velocity u is from that of the body.
     SlipSums slip(const BodyState& state, const exchange::FieldView& u);
 
     /// Forces on the host and back, component by component.

@@ -20,11 +20,14 @@ namespace hemoflux::coupling {
 /// A symmetric or rotated 3 x 3 matrix, by rows.
 struct Matrix3 {
     Vec3d row[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    /// M v.
     [[nodiscard]] Vec3d operator*(const Vec3d& v) const {
         return {dot(row[0], v), dot(row[1], v), dot(row[2], v)};
     }
+    /// M^T.
     [[nodiscard]] Matrix3 transposed() const;
 };
+/// The product A B.
 Matrix3 operator*(const Matrix3& a, const Matrix3& b);
 
 /// Nodes of a body in its own frame; lengths in um.
@@ -33,9 +36,10 @@ struct BodySurface {
     meshing::SurfaceMesh mesh;   ///< the true surface, one vertex for each node
     std::vector<double> areas;   ///< um^2
     std::vector<Vec3d> normals;  ///< unit vectors, out of the body
-    bool closed = true;
-    double volume = 0;  ///< enclosed, um^3
-    Matrix3 inertia;    ///< of the enclosed volume about the centre, per density, um^5
+    bool closed = true;          ///< false: a mantle that ends at the sides of the box
+    double volume = 0;           ///< enclosed, um^3
+    Matrix3 inertia;             ///< of the enclosed volume about the centre, per density, um^5
+    /// Sum of the areas, um^2.
     [[nodiscard]] double area() const;
     /// Nodes per square of edge h.
     [[nodiscard]] double nodes_per_square(double h) const;

@@ -16,6 +16,7 @@
 
 namespace hemoflux::coupling {
 
+/// The motions of the table above.
 enum class MotionMode { steady, tumbling, intermittent, swinging, tank_treading };
 
 /// "steady", "tumbling", "intermittent", "swinging", "tank treading".

@@ -154,13 +154,12 @@ ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& tria
     : triangles_(triangles.size()),
       stride_(stride),
       cells_(cells),
-      share_(share_per_strength * strength / (1 + share_per_strength * strength)),
-      weight_(weight_at_most * std::min(1.0, strength)),
       triangle_(triangles.size() * cells),
       node_(stride * cells),
       rate_(triangles.size() * cells),
       sums_(cells),
       scratch_(std::make_unique<Scratch>()) {
+    set_strength(strength);
     std::vector<int> corners;
     for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
     corners_ = exchange::Buffer<int>(corners);
@@ -170,6 +169,11 @@ ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& tria
 }
 
 ConstraintDamping::~ConstraintDamping() = default;
+
+void ConstraintDamping::set_strength(double strength) {
+    share_ = share_per_strength * strength / (1 + share_per_strength * strength);
+    weight_ = weight_at_most * std::min(1.0, strength);
+}
 
 void ConstraintDamping::apply(const double* x, const double* y, const double* z,
                               const std::array<double*, 3>& u) {

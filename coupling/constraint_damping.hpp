@@ -8,8 +8,8 @@
 ///   u_i <- u_i - w/d_i sum_k g_ki (sum_j g_kj . u_j) / A_k        four times; g_ki = dA_k/dR_i, d_i = sum_k |g_ki|^2 / A_k
 ///   u <- u - s/(1 + s) P u          P the projection on grad V and grad A: dV/dt and dA/dt are divided by 1 + s
 ///
-/// The first damps what varies from node to node most: no mode of it grows, since 3 w < 1. A rest state has no rates, so it is
-/// not changed, nor are the volume and area errors, which the moduli set; rigid motions pass through.
+/// The first damps what varies from node to node most: no mode of it grows, since 3 w < 1. A rest state has no rates,
+/// so it is not changed, nor are the volume and area errors, which the moduli set; rigid motions pass through.
 /// s = 9 strength and w = 0.3 min(1, strength) with strength = step / explicit limit - 1: nothing at the explicit limit.
 #pragma once
 
@@ -54,6 +54,8 @@ class ConstraintDamping {
                       double strength);
     ~ConstraintDamping();
 
+    /// For steps of another length; > 0.
+    void set_strength(double strength);
     /// Damps velocities u (device, in place) of the nodes at x, y, z (device, um). Padding gets the velocity of the first
     /// node of its cell.
     void apply(const double* x, const double* y, const double* z, const std::array<double*, 3>& u);
@@ -61,7 +63,7 @@ class ConstraintDamping {
   private:
     struct Scratch;
     std::size_t triangles_, stride_, cells_;
-    double share_, weight_;
+    double share_ = 0, weight_ = 0;
     exchange::Buffer<int> corners_, ring_begin_, ring_;
     exchange::Buffer<TriangleGradient> triangle_;
     exchange::Buffer<NodeGradient> node_;

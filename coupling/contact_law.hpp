@@ -10,7 +10,8 @@
 ///
 /// because the sum over a plane at distance d, int_d^inf w(r) 2 pi r dr, is then int_d^inf Pi = W(d): the moduli do not
 /// depend on the mesh as long as its edges are shorter than the reach. From d_1 + 2/beta on the Morse pressure is led to
-/// zero, by 1 - 3 s^2 + 2 s^3, which it reaches with its slope at the cut-off d_c = d_1 + 4/beta. A node and a flat wall meet with A_i Pi(d), repulsion only.
+/// zero, by 1 - 3 s^2 + 2 s^3, which it reaches with its slope at the cut-off d_c = d_1 + 4/beta. A node and a flat wall
+/// meet with A_i Pi(d), repulsion only.
 /// Units: um, pressure 10 Pa, energy 1e-17 J.
 #pragma once
 
@@ -46,6 +47,7 @@ struct ContactPair {
 /// The law as kernels see it.
 class ContactLaw {
   public:
+    /// The parameters are taken as they are; ContactOptions::check() is the caller's.
     explicit ContactLaw(const ContactOptions& o)
         : pressure_(o.pressure),
           range_(o.range),
@@ -55,6 +57,7 @@ class ContactLaw {
           cut_off_(o.cut_off()),
           reach_(o.reach()) {}
 
+    /// Where all forces end, um.
     [[nodiscard]] HEMOFLUX_INLINE double reach() const { return reach_; }
 
     /// Pair at distance r, 0 < r < reach().

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 
 #include "coupling/axis_view.hpp"
 
@@ -24,9 +23,6 @@ namespace hemoflux::coupling {
 
 /// Which kernel interpolates and spreads.
 enum class Kernel { phi2, phi3, phi4, lagrange };
-
-/// The kernel called "phi2", "phi3", "phi4" or "lagrange". InputError for any other name.
-Kernel kernel_named(const std::string& name);
 
 namespace detail {
 
@@ -70,8 +66,10 @@ HEMOFLUX_INLINE int smooth_weights(const AxisView& axis, double X, double margin
 
 }  // namespace detail
 
-/// Every kernel: value(r) is the function of the literature, operator() writes the four weights of the
-/// unwrapped cells first .. first + 3 for a marker at X in [axis.lower, axis.upper] and returns first.
+// Every kernel: value(r) is the function of the literature, operator() writes the four weights of the
+// unwrapped cells first .. first + 3 for a marker at X in [axis.lower, axis.upper] and returns first.
+
+/// Support of two cells, (5.7); not moment-corrected, as it is linear interpolation.
 struct Phi2 {
     HEMOFLUX_INLINE static double value(double r) { return r < 1 ? 1 - r : 0; }
     HEMOFLUX_INLINE int operator()(const AxisView& axis, double X, double* w) const {

@@ -44,6 +44,7 @@ class NodeLink {
   public:
     virtual ~NodeLink() = default;
 
+    /// Number of nodes.
     [[nodiscard]] virtual std::size_t size() const = 0;
     /// Recomputes the weights for nodes at these positions (device, um).
     virtual void locate(const exchange::FieldView& positions) = 0;
@@ -61,6 +62,7 @@ class NodeLink {
     NodeLink& operator=(const NodeLink&) = default;
 };
 
+/// A grid of cells of either kind, for what does not run over all of them.
 class FluidGrid {
   public:
     virtual ~FluidGrid() = default;

@@ -7,10 +7,10 @@
 ///
 /// u_j the fluid's velocity interpolated to node j, U_j the body's, zero; A_j the area it stands for, h_j the local cell.
 /// s_j makes the violation a rate: that by which viscosity and the stream, whose largest speed at the start is u_s, would
-/// change the velocity of a cell. Stresses t that alternate
-/// from node to node are hardly felt by the cells and would have no bound, so the surface gives way a little to what
-/// distinguishes a stress from its mean m over the neighbourhood; smooth stresses are held without slip. The estimate
-/// is the fluid's answer to stresses that vary over a few cells; Krylov iterations add what longer waves need.
+/// change the velocity of a cell. Stresses t that alternate from node to node are hardly felt by the cells and would
+/// have no bound, so the surface gives way a little to what distinguishes a stress from its mean m over the
+/// neighbourhood; smooth stresses are held without slip. The estimate is the fluid's answer to stresses that vary over a
+/// few cells; Krylov iterations add what longer waves need.
 #pragma once
 
 #include <vector>
@@ -24,6 +24,7 @@
 
 namespace hemoflux::coupling {
 
+/// The bodies of a steady flow and the forces that hold them.
 class HeldBodies final : public fluid::Constraint {
   public:
     /// The bodies and the fluid must outlive this object; nobody else may write to the fluid's force meanwhile.

@@ -15,9 +15,6 @@
 namespace hemoflux::coupling {
 namespace {
 
-/// Lattice units of the inside test per smallest cell; see signed_distance.cpp.
-constexpr double lattice_per_cell = 65536;
-
 /// One membrane as the cells of one period of the grid meet it: shift is added to a cell's centre. Bounds of the band
 /// around it; its columns are n[0] x n[1] rectangles of the yz plane, whose lists begin at start[column].
 struct BandImage {
@@ -90,7 +87,7 @@ class HexBand final : public MembraneBand {
           triangles_(s.triangles),
           vertices_(s.vertices),
           membranes_(s.cells),
-          lattice_(std::exp2(std::ceil(std::log2(lattice_per_cell / cells.smallest())))),
+          lattice_(inside_test_lattice(cells.smallest())),
           band_triangles_(s.cells * s.triangles.size()) {
         std::vector<double> widths;
         for (std::uint32_t c = 0; c < cells.field_size(); ++c) {

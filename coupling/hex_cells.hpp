@@ -42,6 +42,7 @@ class HexCells final : public FluidGrid {
     }
     /// The cells around every cell for a kernel, made when first asked for.
     [[nodiscard]] const HexNeighbourhood& neighbourhood(Kernel kernel) const;
+    /// The grid it was made of.
     [[nodiscard]] const meshing::HexGrid& grid() const { return grid_; }
     /// What lies across the six faces of every cell, on the host.
     [[nodiscard]] const std::vector<HexStep>& steps() const { return steps_; }

@@ -18,6 +18,7 @@ struct HexStencil {
     bool lost = false;
 };
 
+/// Nodes on an unstructured grid.
 class HexLink final : public NodeLink {
   public:
     /// `cells` must outlive the link. InputError as window_shape(), or where a cell has too few others around it for
@@ -30,9 +31,11 @@ class HexLink final : public NodeLink {
     void interpolate(const exchange::FieldView& field, const exchange::FieldView& values) const override;
     [[nodiscard]] std::unique_ptr<ForceSpreader> spreader(ForceSpreader* first) const override;
 
-    /// The cells that hold the nodes and the weights of their candidates, width() to a node; on the host.
+    /// The cells that hold the nodes; on the host.
     [[nodiscard]] std::vector<HexStencil> stencils() const { return stencils_.to_host(); }
+    /// The weights of their candidates, width() to a node; on the host.
     [[nodiscard]] std::vector<double> weights() const { return weights_.to_host(); }
+    /// Weights kept for a node.
     [[nodiscard]] std::size_t width() const { return around_.width(); }
 
   private:
@@ -49,8 +52,9 @@ class HexLink final : public NodeLink {
     Kernel kernel_;
     bool located_ = false;
     exchange::Buffer<HexStencil> stencils_;
-    exchange::Buffer<double> weights_, last_[3];
-    /// last_: the positions located last; bodies at rest are not located again.
+    exchange::Buffer<double> weights_;
+    /// The positions located last; bodies at rest are not located again.
+    exchange::Buffer<double> last_[3];
     /// Sources: cells that hold nodes or may soon. slot_: number of each cell among them, or -1; nodes sorted by it; where
     /// the nodes of each source begin.
     std::vector<std::uint32_t> sources_;

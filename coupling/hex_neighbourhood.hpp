@@ -23,6 +23,7 @@ WindowShape window_shape(Kernel kernel);
 /// Owns lists and windows on the device.
 class HexNeighbourhood {
   public:
+    /// Lists and windows of all cells. InputError as window_shape().
     HexNeighbourhood(const HexCells& cells, Kernel kernel);
 
     /// Valid as long as this object lives.

@@ -18,6 +18,7 @@ namespace hemoflux::coupling {
 
 /// Faces of a hexahedron; pairs of periodic patches with different translations that a grid may have.
 inline constexpr int hex_faces_count = 6, hex_periods = 3;
+/// In place of a cell's number: none.
 inline constexpr std::uint32_t no_cell = ~std::uint32_t{0};
 
 /// A cell, and how many times each period it lies away from where the grid has it.
@@ -32,15 +33,16 @@ struct HexStep {
     int turn = 0;
 };
 
-/// Trivially copyable.
+/// Cells, corners and neighbours of a grid, trivially copyable.
 struct HexWalkView {
     std::size_t cells = 0;
     const Vec3d* centre = nullptr;          ///< [cell], um
     const Vec3d* node = nullptr;            ///< um
     const std::uint32_t* corner = nullptr;  ///< [cell][8] in the order of VTK_HEXAHEDRON
     const HexStep* step = nullptr;          ///< [cell][6] in the order of meshing::hex_faces
-    Vec3d period[hex_periods] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    Vec3d period[hex_periods] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};  ///< zero where there are fewer
 
+    /// How far a place is from where the grid has its cell, um.
     HEMOFLUX_INLINE Vec3d offset(const HexPlace& p) const {
         return double(p.turns[0]) * period[0] + double(p.turns[1]) * period[1] +
                double(p.turns[2]) * period[2];

@@ -23,6 +23,7 @@ class Immersed {
     [[nodiscard]] virtual exchange::FieldView positions() = 0;
     /// Forces of the nodes on the fluid (device, in force_unit()); the pointers stay valid.
     [[nodiscard]] virtual exchange::FieldView forces() = 0;
+    /// In words, for output.
     [[nodiscard]] virtual std::string force_unit() const = 0;
     /// Force in force_unit() -> lattice force (rho_0 c^2 um^2).
     [[nodiscard]] virtual double force_factor() const = 0;
@@ -38,6 +39,10 @@ class Immersed {
 
     /// Throws NumericalError when something of its own is wrong that the loop does not see.
     virtual void check() {}
+    /// A node in words, for messages.
+    [[nodiscard]] virtual std::string describe_node(std::size_t node) const {
+        return "node " + std::to_string(node) + " of " + name();
+    }
     /// Throws the NumericalError for a node that has left the box or is not a number.
     [[noreturn]] virtual void report_lost(std::size_t node) const = 0;
 

@@ -107,10 +107,18 @@ void ImmersedCells::compute_forces(double /*dt*/) {
                            nu_.stride);
 }
 
+double ImmersedCells::damping_in(double dt) const {
+    const double strength = options_.constraint_damping;
+    if (options_.damped_step == 0 || dt == options_.damped_step) return strength;
+    return (1 + strength) * dt / options_.damped_step - 1;  // strength = step / explicit limit - 1
+}
+
 void ImmersedCells::advance(double dt, const exchange::FieldView& velocity) {
     double *x = cells_.x().data(), *y = cells_.y().data(), *z = cells_.z().data();
-    if (damping_)
+    if (const double strength = damping_in(dt); damping_ && strength > 0) {
+        damping_->set_strength(strength);
         damping_->apply(x, y, z, {velocity.component[0], velocity.component[1], velocity.component[2]});
+    }
     move(nodes_, dt, velocity.component[0], velocity.component[1], velocity.component[2], x, y, z);
     if (recentring_) shift_ += recentring_->apply(x, y, z);
     if (elements_) elements_->advance(cells_, dt * options_.membrane_time);
@@ -130,10 +138,13 @@ void ImmersedCells::check() {
             "raise contact.pressure or contact.range, refine the grid, or shorten numerics.step_strain");
 }
 
+std::string ImmersedCells::describe_node(std::size_t node) const {
+    return fmt::format("membrane node {} of cell {}", node % cells_.stride(), node / cells_.stride());
+}
+
 void ImmersedCells::report_lost(std::size_t node) const {
-    const std::size_t cell = node / cells_.stride(), vertex = node % cells_.stride();
-    const std::string name = fmt::format("membrane node {} of cell {}", vertex, cell);
-    const Vec3d at = cells_.positions(cell)[vertex];
+    const std::string name = describe_node(node);
+    const Vec3d at = cells_.positions(node / cells_.stride())[node % cells_.stride()];
     if (!std::isfinite(norm(at)))
         throw NumericalError(name, "its position is no longer a number; the step is probably too long",
                              "shorten numerics.step_strain");

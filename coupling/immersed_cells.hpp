@@ -38,6 +38,8 @@ struct CellOptions {
     double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
     /// Strength of ConstraintDamping, which steps beyond the explicit limit of the membrane need; 0: none.
     double constraint_damping = 0;
+    /// The step (um/c) that this strength is of; shorter ones need less. 0: all steps are alike.
+    double damped_step = 0;
 };
 
 /// What the cells' future depends on besides fluid and nodes.
@@ -73,6 +75,7 @@ class ImmersedCells final : public Immersed {
     void advance(double dt, const exchange::FieldView& velocity) override;
     /// Throws NumericalError when a node is inside another cell.
     void check() override;
+    [[nodiscard]] std::string describe_node(std::size_t node) const override;
     [[noreturn]] void report_lost(std::size_t node) const override;
 
     /// State for a checkpoint, and back. restore() expects the nodes to be restored already.
@@ -94,6 +97,9 @@ class ImmersedCells final : public Immersed {
     }
 
   private:
+    /// The strength of the damping in a step of dt.
+    [[nodiscard]] double damping_in(double dt) const;
+
     membrane::Batch& cells_;
     CellOptions options_;
     std::size_t nodes_;

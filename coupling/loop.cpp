@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "coupling/cell_grid.hpp"
 #include "coupling/hex_cells.hpp"
+#include "coupling/step_control.hpp"
 #include "exchange/error.hpp"
 #include "exchange/memory.hpp"
 #include "fluid/cell_report.hpp"
@@ -19,6 +22,7 @@ struct Loop::Partner {
     std::unique_ptr<NodeLink> link;
     std::unique_ptr<ForceSpreader> spreader;
     exchange::Buffer<double> v[3];
+    std::unique_ptr<VelocityChange> change;  // null unless watched
 
     /// `first`: the spreader that clears the field, null for the first partner itself.
     Partner(Immersed& what, const exchange::FieldTable& fields, const FluidGrid& grid, Kernel kernel,
@@ -63,7 +67,7 @@ void Loop::add_cells(membrane::Batch& cells, const LoopOptions& o, double nu) {
     cells_ = std::make_unique<ImmersedCells>(
         *grid_, cells,
         CellOptions{o.force_factor, o.nu_inside, nu, o.smoothing, o.recentre, o.contact, o.pull, o.surface_nu,
-                    o.membrane_time, o.maxwell_stiffness, o.constraint_damping},
+                    o.membrane_time, o.maxwell_stiffness, o.constraint_damping, o.damped_step},
         viscosity);
     add(*cells_);
 }
@@ -86,7 +90,52 @@ void Loop::step(double dt) {
     fluid_.step(dt);
     for (const auto& p : partners_) p->immersed.correct(dt, *p->link, at_cells_);
     for (const auto& p : partners_) p->link->interpolate(at_cells_.velocity, p->velocity());
-    for (const auto& p : partners_) p->immersed.advance(dt, p->velocity());
+    for (const auto& p : partners_) {
+        p->immersed.advance(dt, p->velocity());
+        if (p->change) p->change->observe(p->velocity());  // as the nodes have moved
+    }
+}
+
+void Loop::watch_velocities() {
+    for (const auto& p : partners_) p->change = std::make_unique<VelocityChange>(p->immersed.nodes());
+}
+
+const Loop::Partner* Loop::most_changed_partner() const {
+    const Partner* most = nullptr;
+    for (const auto& p : partners_)
+        if (p->change && p->change->known() && !(most && p->change->largest() <= most->change->largest()))
+            most = p.get();
+    return most;
+}
+
+std::optional<double> Loop::velocity_change() const {
+    const Partner* most = most_changed_partner();
+    return most ? std::optional(most->change->largest()) : std::nullopt;
+}
+
+std::string Loop::most_changed() const {
+    const Partner* most = most_changed_partner();
+    return most ? most->immersed.describe_node(most->change->where()) : "no node";
+}
+
+std::vector<double> Loop::velocities() const {
+    std::vector<double> all;
+    for (const auto& p : partners_) {
+        if (!p->change) continue;
+        const std::vector<double> one = p->change->memory();
+        all.insert(all.end(), one.begin(), one.end());
+    }
+    return all;
+}
+
+void Loop::restore_velocities(const std::vector<double>& velocities) {
+    auto at = velocities.begin();
+    for (const auto& p : partners_) {
+        const auto n = static_cast<std::ptrdiff_t>(velocities.empty() ? 0 : 3 * p->immersed.nodes());
+        if (velocities.end() - at < n) throw std::length_error("Loop::restore_velocities: too few values");
+        if (p->change) p->change->restore({at, at + n});
+        at += n;
+    }
 }
 
 void Loop::check() {

@@ -39,7 +39,8 @@ struct LoopOptions {
     double membrane_time = 0;
     double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
     double constraint_damping =
-        0;  ///< strength, for steps beyond the explicit limit of the membrane; 0: none
+        0;                   ///< strength, for steps beyond the explicit limit of the membrane; 0: none
+    double damped_step = 0;  ///< the step (um/c) that this strength is of; 0: all steps are alike
 };
 
 /// Forces of all nodes on the fluid in lattice units: their sum and the sum of their magnitudes.
@@ -67,6 +68,16 @@ class Loop {
     /// One step of dt (um/c). Throws NumericalError when a spring is overstretched.
     void step(double dt);
 
+    /// Takes note, from now on, of how much the velocities of all nodes change in a step.
+    void watch_velocities();
+    /// The largest change of a node's velocity in the last step, c; nothing before the second step that was watched.
+    [[nodiscard]] std::optional<double> velocity_change() const;
+    /// The node whose velocity changed most, in words.
+    [[nodiscard]] std::string most_changed() const;
+    /// The velocities last seen, of all partners one after the other, for a checkpoint, and back. Empty unless watched.
+    [[nodiscard]] std::vector<double> velocities() const;
+    void restore_velocities(const std::vector<double>& velocities);
+
     /// Throws NumericalError that names the first node outside the box, the first fluid cell that is not finite, or a
     /// node inside another cell.
     void check();
@@ -91,6 +102,7 @@ class Loop {
 
   private:
     struct Partner;
+    [[nodiscard]] const Partner* most_changed_partner() const;
 
     Loop(fluid::Flow& fluid, std::unique_ptr<FluidGrid> grid, Kernel kernel);
     void add_cells(membrane::Batch& cells, const LoopOptions& options, double nu);

@@ -1,5 +1,5 @@
 /// The fluid cells in a band around the membranes, as the viscosity inside cells needs them: implemented for rows of
-/// cells (cell_band.cpp) and for hexahedra (hex_band.hpp). Outermost level: one call a recomputation.
+/// cells (cell_band.cpp) and for hexahedra (hex_band.cpp). Outermost level: one call a recomputation.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ struct HalfWidth {
 /// What (6.45) is made of; nu_inside: one value a membrane, device. surface_nu: see viscosity.hpp.
 struct BandViscosity {
     const double* nu_inside = nullptr;
-    double nu_outside = 0, low = 0, high = 0, surface_nu = 0;
+    double nu_outside = 0, low = 0, high = 0, surface_nu = 0;  ///< low, high: range of the sum
     HalfWidth half_width;
 };
 
@@ -30,6 +30,7 @@ struct BandSurfaces {
     std::size_t vertices, cells;
 };
 
+/// The cells around a number of closed surfaces.
 class MembraneBand {
   public:
     virtual ~MembraneBand() = default;

@@ -1,6 +1,7 @@
 /// The balance of momentum of one step, each part measured on its own:
 ///
-///   sum V (rho u)_new - sum V (rho u)_old = dt [sum F_nodes + f V - flux through the sides] + what the implicit operator passes
+///   sum V (rho u)_new - sum V (rho u)_old = dt [sum F_nodes + f V - flux through the sides]
+///                                           + what the implicit operator passes
 ///
 /// Nodes give their forces (not what was spread), the sides the face fluxes of the residual at the old state.
 #pragma once
@@ -31,7 +32,7 @@ struct MomentumStep {
 /// their forces alone.
 class MomentumBalance {
   public:
-    /// Both must outlive it.
+    /// Fluid and loop must outlive this object.
     MomentumBalance(fluid::Solver& fluid, const Loop& loop) : fluid_(fluid), loop_(loop) {}
 
     /// Notes the fluid before a step.

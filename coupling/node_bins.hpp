@@ -25,26 +25,30 @@ NodeBox node_box(const CellGridView& grid);
 /// Bins as kernels see them. Sorted node s is node `node[s]` of cell `cell[s]` at (x, y, z)[s].
 struct NodeBinsView {
     NodeBox box;
-    int n[3];
-    const int* start;
+    int n[3];          ///< bins along each axis
+    const int* start;  ///< first sorted node of every bin, and one more entry for the end
     const int *node, *cell;
     const double *x, *y, *z;
 
+    /// Bin of a coordinate along one axis; beyond walls, and for what is not a number, one at an end.
     HEMOFLUX_INLINE int along(int axis, double X) const {
         double t = (X - box.lower[axis]) / box.length[axis];
         if (box.periodic[axis]) t -= std::floor(t);
         const int b = static_cast<int>(t * n[axis]);
         return !(t > 0) ? 0 : b < n[axis] ? b : n[axis] - 1;
     }
+    /// Number of the bin of a point, x fastest.
     HEMOFLUX_INLINE std::size_t bin(const Vec3d& r) const {
         const int i = along(0, r.x), j = along(1, r.y), k = along(2, r.z);
         return static_cast<std::size_t>((k * n[1] + j) * n[0] + i);
     }
+    /// Position of sorted node s, um.
     HEMOFLUX_INLINE Vec3d position(int s) const { return {x[s], y[s], z[s]}; }
 
     /// Bins b - 1, b, b + 1 of one axis, each once: between walls and where there are fewer than three, fewer.
     struct Span {
         int bin[3], count = 0;
+        /// Around bin b of n.
         HEMOFLUX_INLINE Span(int b, int n, bool periodic) {
             for (int o = -1; o <= 1; ++o) {
                 int c = b + o;
@@ -88,6 +92,7 @@ class NodeBins {
     [[nodiscard]] NodeBinsView view() const;
     /// Nodes sorted: cells times vertices.
     [[nodiscard]] std::size_t nodes() const { return node_.size(); }
+    /// Smallest edge of the bins, um.
     [[nodiscard]] double reach() const { return reach_; }
 
   private:

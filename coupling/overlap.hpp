@@ -28,6 +28,7 @@ class OverlapCheck {
 
     /// The smallest gap of cells at x, y, z (device, um).
     [[nodiscard]] Gap smallest(const double* x, const double* y, const double* z);
+    /// How far it looks, um.
     [[nodiscard]] double reach() const { return bins_.reach(); }
 
   private:

@@ -18,7 +18,9 @@ namespace hemoflux::coupling {
 /// k = z x a; half a turn about x where a = -z.
 struct AxisTurn {
     Vec3d axis{0, 0, 1};
+    /// v turned.
     [[nodiscard]] Vec3d operator()(const Vec3d& v) const;
+    /// v turned by the reverse.
     [[nodiscard]] Vec3d back(const Vec3d& v) const;
 };
 

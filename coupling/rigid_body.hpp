@@ -25,6 +25,7 @@
 
 namespace hemoflux::coupling {
 
+/// How the forces at the nodes are found; see above.
 enum class BodyForcing { direct, feedback };
 
 /// What does not change during a run; lattice units (rho_0, um, c).
@@ -42,8 +43,8 @@ struct BodyOptions {
 /// What the future of a body depends on beside the fluid.
 struct BodyMemory {
     BodyState state;
-    std::array<std::vector<double>, 3> forces;
-    double stiffness = 0;
+    std::array<std::vector<double>, 3> forces;  ///< at the nodes, component by component
+    double stiffness = 0;                       ///< k of feedback, once it is found
 };
 
 /// Force and torque about the centre of the fluid on a body, rho_0 c^2 um^2 and um^3.
@@ -71,10 +72,12 @@ class RigidBody final : public Immersed {
     void advance(double dt, const exchange::FieldView& velocity) override;
     [[noreturn]] void report_lost(std::size_t node) const override;
 
+    /// In the body's own frame.
     [[nodiscard]] const BodySurface& surface() const { return surface_; }
+    /// Where the body is and how it moves, at the end of the last step.
     [[nodiscard]] const BodyState& state() const { return state_; }
     [[nodiscard]] const BodyOptions& options() const { return options_; }
-    /// Of the last step.
+    /// Force and torque of the fluid in the last step.
     [[nodiscard]] BodyForces fluid_forces() const;
     /// Area-weighted root mean square of |U_j - u_j| at the end of the last step, c.
     [[nodiscard]] double slip() const { return slip_; }

@@ -1,17 +1,12 @@
 #include "coupling/signed_distance.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "coupling/tile_scan.hpp"
 #include "exchange/parallel.hpp"
 
 namespace hemoflux::coupling {
 namespace {
-
-/// Lattice units of the inside test per smallest cell: fine enough not to matter (1e-5 of a cell), and coarse
-/// enough that edge functions of triangles up to 1000 cells wide fit the 53 bits of a double.
-constexpr double lattice_per_cell = 65536;
 
 /// Half-width of the band at vertex v.
 struct VertexHalfWidth {
@@ -106,7 +101,7 @@ SignedDistance::SignedDistance(const CellGrid& grid, const std::vector<std::arra
       cells_(cells),
       triangles_(triangles.size()),
       half_width_(half_width),
-      lattice_(std::exp2(std::ceil(std::log2(lattice_per_cell / grid.smallest())))),
+      lattice_(inside_test_lattice(grid.smallest())),
       corners_(flat(triangles)),
       vertex_half_width_(cells * vertices),
       triangle_(cells * triangles.size()),

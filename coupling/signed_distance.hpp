@@ -61,6 +61,7 @@ class SignedDistance {
     [[nodiscard]] const double* half_widths() const { return vertex_half_width_.data(); }
     /// The prepared triangles of all surfaces; device.
     [[nodiscard]] const BandTriangle* triangles() const { return triangle_.data(); }
+    /// Vertices of one surface, and number of surfaces.
     [[nodiscard]] std::size_t vertices() const { return vertices_; }
     [[nodiscard]] std::size_t cells() const { return cells_; }
 

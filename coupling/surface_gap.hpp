@@ -40,6 +40,7 @@ class RingDistance {
     /// From p to the triangles around a vertex.
     HEMOFLUX_INLINE explicit RingDistance(const Vec3d& p) : p_(p) {}
 
+    /// Takes triangle a, b, c; a is the vertex.
     HEMOFLUX_INLINE void add(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
         const Vec3d ab = b - a, ac = c - a;
         Vec3d n = cross(ab, ac);

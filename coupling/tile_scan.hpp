@@ -13,6 +13,7 @@ namespace hemoflux::coupling {
 /// image m being [r0 + m n, r1 + m n). Between walls there is image 0 only.
 struct Images {
     int from, to;
+    /// r0, r1: the range; first, last: the unwrapped cells.
     HEMOFLUX_INLINE Images(const AxisView& axis, int r0, int r1, int first, int last) : from(0), to(0) {
         if (last <= first) return;
         if (!axis.periodic) {
@@ -31,6 +32,7 @@ struct Images {
 /// sink.
 class TileScan {
   public:
+    /// Tile number `tile` against the surfaces, which must outlive it.
     HEMOFLUX_INLINE TileScan(const SurfacesView& surfaces, std::size_t tile)
         : s_(surfaces), r_(surfaces.tiles.range(tile)) {}
 

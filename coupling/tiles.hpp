@@ -23,6 +23,7 @@ struct Tiles {
     int ny = 0, nz = 0, count_y = 0, count_z = 0;
 
     Tiles() = default;
+    /// The tiles of a grid of this layout.
     explicit Tiles(const exchange::Layout& layout)
         : ny(static_cast<int>(layout.n[1])),
           nz(static_cast<int>(layout.n[2])),

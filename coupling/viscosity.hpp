@@ -3,16 +3,18 @@
 ///   nu = nu_ext + sum_c (nu_int,c - nu_ext) H(d_c)                                      (6.45)
 ///   H(d) = 1/2 [1 + d/h + sin(pi d/h)/pi] for |d| <= h, 0 outside, 1 inside             (6.46)
 ///
+/// the sum of (6.45) limited to the range of the given viscosities where cells overlap; d is the signed distance to
+/// membrane c and h the local cell (signed_distance.hpp).
+///
 /// A membrane's own viscosity may be lent to the fluid (the proposal of section 7.6): a surface viscosity mu_s is
 /// added over the band as mu_s delta(d), whose integral across the membrane is mu_s,
 ///
 ///   delta(d) = dH/dd = [1 + cos(pi d/h)] / (2 h),  h as in (6.46): local_cells times the cell's largest width
 ///
-/// the sum of (6.45) limited to the range of the given viscosities where cells overlap; d is the signed distance to membrane c and h the local cell (signed_distance.hpp). The field is recomputed
-/// only when a membrane has moved noticeably since it was last computed: a node by more than `normal`
-/// half-widths along its normal, or by more than `total` half-widths in any direction (a membrane that slides
-/// along itself, as in tank treading, encloses the same cells). d is then off by no more than about (normal +
-/// total^2 h kappa / 2) h, kappa the curvature of the membrane.
+/// The field is recomputed only when a membrane has moved noticeably since it was last computed: a node by more than
+/// `normal` half-widths along its normal, or by more than `total` half-widths in any direction (a membrane that slides
+/// along itself, as in tank treading, encloses the same cells). d is then off by no more than about
+/// (normal + total^2 h kappa / 2) h, kappa the curvature of the membrane.
 #pragma once
 
 #include <array>

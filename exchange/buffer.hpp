@@ -11,15 +11,16 @@
 
 namespace hemoflux::exchange {
 
-/// Owns `size` values of a trivially copyable T on the device; new elements are zero. Movable; copy with
-/// clone().
+/// Owns `size` values of a trivially copyable T on the device; new elements are zero. Movable, not copyable.
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable_v<T>);
 
   public:
     Buffer() = default;
+    /// `size` zeros.
     explicit Buffer(std::size_t size) : data_(static_cast<T*>(allocate(size * sizeof(T)))), size_(size) {}
+    /// A copy of values of the host.
     explicit Buffer(const std::vector<T>& host) : Buffer(host.size()) { assign(host); }
     Buffer(Buffer&& other) noexcept
         : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
@@ -51,12 +52,6 @@ class Buffer {
     }
     /// Sets every element to `value`.
     void fill(const T& value) { assign(std::vector<T>(size_, value)); }
-    /// An independent copy on the device.
-    [[nodiscard]] Buffer clone() const {
-        Buffer b(size_);
-        copy_on_device(b.data_, data_, size_ * sizeof(T));
-        return b;
-    }
 
   private:
     T* data_ = nullptr;

@@ -12,6 +12,7 @@ enum class Exit { done = 0, bad_input = 2, numerical = 3, file = 4, interrupted 
 /// Base of all errors that end a run with a message; what() is "<what>: <why>. <remedy>".
 class Error : public std::runtime_error {
   public:
+    /// what: the thing that is wrong; remedy: what to do, the beginning of a sentence.
     Error(Exit code, const std::string& what, const std::string& why, const std::string& remedy)
         : std::runtime_error(what + ": " + why + ". " + sentence(remedy) + "."), code_(code) {}
     /// Exit code of the program when this error ends it.

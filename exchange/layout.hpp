@@ -16,10 +16,12 @@ inline constexpr std::size_t ghosts = 2;
 /// j, k run from -ghosts to n + ghosts - 1. Interior rows start on a multiple of row_alignment, and a row may
 /// be read one pack past its end.
 struct Layout {
-    std::size_t n[3] = {0, 0, 0};
+    std::size_t n[3] = {0, 0, 0};  ///< cells along x, y and z
+    /// Values from row to row, from plane to plane, before cell (0, 0, 0), and of the whole field.
     std::size_t row = 0, plane = 0, origin = 0, size = 0;
 
     Layout() = default;
+    /// Rows, planes and padding of a grid of nx x ny x nz cells.
     Layout(std::size_t nx, std::size_t ny, std::size_t nz) : n{nx, ny, nz} {
         row = round_up(row_alignment + nx + ghosts, row_alignment) + row_alignment;
         plane = row * (ny + 2 * ghosts);

@@ -11,7 +11,9 @@ void* allocate(std::size_t bytes);
 void release(void* device) noexcept;
 /// Copies between host and device memory.
 void copy_to_host(void* host, const void* device, std::size_t bytes);
+/// From the host to the device.
 void copy_to_device(void* device, const void* host, std::size_t bytes);
+/// From one place of the device to another.
 void copy_on_device(void* to, const void* from, std::size_t bytes);
 
 }  // namespace hemoflux::exchange

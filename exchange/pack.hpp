@@ -143,6 +143,7 @@ HEMOFLUX_INLINE void store_strided(double* p, std::ptrdiff_t pitch, const Value&
     }
 }
 
+/// The smaller, the larger value; square root and magnitude; of packs lane by lane.
 HEMOFLUX_INLINE double minimum(double a, double b) { return a < b ? a : b; }
 HEMOFLUX_INLINE double maximum(double a, double b) { return a > b ? a : b; }
 /// yes where condition holds, else no.

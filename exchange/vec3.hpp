@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "exchange/macros.hpp"
 
@@ -52,11 +53,22 @@ HEMOFLUX_INLINE T norm(const Vec3<T>& a) {
     return sqrt(dot(a, a));
 }
 
+/// The component along axis 0, 1 or 2.
+template <class T>
+HEMOFLUX_INLINE T component(const Vec3<T>& v, std::size_t axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+template <class T>
+HEMOFLUX_INLINE T& component(Vec3<T>& v, std::size_t axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
 using Vec3d = Vec3<double>;
 
 }  // namespace hemoflux::exchange
 
 namespace hemoflux {
+using exchange::component;
 using exchange::cross;
 using exchange::dot;
 using exchange::norm;

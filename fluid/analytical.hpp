@@ -36,6 +36,7 @@ struct Poiseuille {
 /// Decaying vortices; wave numbers of x and y, gamma as in the equilibrium (density = 1 + 3 p/gamma).
 struct TaylorGreen {
     double u0, kx, ky, nu, gamma = 1;
+    /// Time in which the velocity falls by a factor e.
     [[nodiscard]] double decay_time() const;
     [[nodiscard]] FlowPoint operator()(const Vec3d& x, double t) const;
 };

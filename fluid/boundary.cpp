@@ -15,16 +15,6 @@ constexpr const char* patch_name[6] = {"x-", "x+", "y-", "y+", "z-", "z+"};
 
 bool is_periodic(const Patch& p) { return p.velocity == VelocityCondition::periodic; }
 
-/// Coordinates of the cell centres of one axis, ghost cells included (index shifted by ghosts).
-std::vector<double> ghosted_centres(const Grid& grid, std::size_t axis) {
-    const auto& widths = grid.ghosted_widths(static_cast<int>(axis));
-    double face = grid.rectilinear().axes[axis].lower();
-    for (std::size_t g = 0; g < exchange::ghosts; ++g) face -= widths[g];
-    std::vector<double> centres;
-    for (const double w : widths) centres.push_back(face + w / 2), face += w;
-    return centres;
-}
-
 /// How the face values of a patch lie in memory: rows along t1 (x where possible), ghost columns included, so
 /// that corners are filled too.
 struct FaceRows {
@@ -189,7 +179,10 @@ bool Boundary::closed() const {
 void Boundary::check_mass_balance() const {
     const double net = net_mass_flux();
     const double gross = std::accumulate(gross_mass_flux_.begin(), gross_mass_flux_.end(), 0.0);
-    if (!closed() || std::abs(net) <= 1e-10 * gross) return;
+    if (closed() && std::abs(net) > 1e-10 * gross) refuse_imbalance(net, gross);
+}
+
+void refuse_imbalance(double net, double gross) {
     throw InputError(
         "the boundary",
         fmt::format("the given velocities bring {:.3g} % more fluid in than out, and no side is open",

@@ -70,6 +70,10 @@ void check(const Patches& patches);
 /// Which axes are periodic.
 std::array<bool, 3> periodic_axes(const Patches& patches);
 
+/// Throws the InputError for given velocities that do not balance. net: outward flux through all sides together; gross:
+/// what flows through them either way.
+[[noreturn]] void refuse_imbalance(double net, double gross);
+
 /// How ghost values of one field follow from interior ones on one patch: sign * mirror + offset[layer] *
 /// value(face).
 struct GhostRule {
@@ -95,6 +99,7 @@ struct BoundaryView {
 /// Evaluates the patches on a grid and keeps the result on the device.
 class Boundary {
   public:
+    /// Throws InputError as check(); conditions that change in time are evaluated at t = 0.
     Boundary(const Patches& patches, const Grid& grid);
 
     /// Replaces the conditions; those that change in time are evaluated at t = 0.
@@ -113,6 +118,7 @@ class Boundary {
     void fill_force(const GridView& grid, const StateView& state) const;
     void fill_viscosity(const GridView& grid, const StateView& state) const;
 
+    /// Valid as long as this object lives and its conditions are not replaced.
     [[nodiscard]] const BoundaryView& view() const { return view_; }
     [[nodiscard]] const Patches& patches() const { return patches_; }
     /// True when no patch lets mass through freely: all are periodic, symmetric or have a given velocity.

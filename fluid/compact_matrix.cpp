@@ -104,8 +104,8 @@ struct InteriorBlocks {
 struct BorderBlocks {
     const double *data, *offset, *q, *volume;
     const std::uint32_t* cell;
-    const signed char*
-        sign;  ///< [face][5] of the ghost's rho, u_n, u_t, u_t in the face's frame; mass flux given
+    /// [face][5]: signs of the ghost's rho, u_n, u_t, u_t in the face's frame, and whether its mass flux is given.
+    const signed char* sign;
     std::size_t count, cells;
     double gamma;
     float* block;

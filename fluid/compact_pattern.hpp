@@ -16,6 +16,7 @@ namespace hemoflux::fluid {
 
 /// Block rows without their diagonal. Row numbers are the new ones unless said otherwise.
 struct CompactPattern {
+    /// In left_right and right_left: no block.
     static constexpr std::uint32_t none = 0xffffffffu;
 
     std::vector<std::uint32_t> level;    ///< first row of every level, and the number of rows

@@ -10,6 +10,7 @@
 
 namespace hemoflux::fluid {
 
+/// The forces and what they must bring about; HeldBodies of the coupling room is one.
 class Constraint {
   public:
     virtual ~Constraint() = default;

@@ -27,11 +27,13 @@ class DuctFlow {
 
     /// Velocity along the axis at a point.
     [[nodiscard]] double speed(const Vec3d& x) const;
+    /// Mean over the cross-section.
     [[nodiscard]] double mean_speed() const { return mean_; }
     /// In the middle.
     [[nodiscard]] double largest_speed() const { return largest_; }
     /// Largest shear rate: at the middle of the long walls, not negative.
     [[nodiscard]] double wall_rate() const { return rate_; }
+    /// Axis of the flow, 0 to 2.
     [[nodiscard]] std::size_t axis() const { return axis_; }
 
   private:

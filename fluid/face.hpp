@@ -29,6 +29,7 @@ struct FaceLoader {
     const FlowParameters& parameters;
     double inv_gamma;
 
+    /// Distance in memory between neighbours along an axis.
     HEMOFLUX_INLINE std::ptrdiff_t stride(int axis) const {
         return axis == 0 ? 1 : static_cast<std::ptrdiff_t>(axis == 1 ? grid.layout.row : grid.layout.plane);
     }
@@ -84,6 +85,7 @@ struct FaceLoader {
                along(axis, grid.axis[axis].minus, i) * (here - down);
     }
 
+    /// Values and gradients of the cell ijk, which lies at `at`, along n, t1, t2.
     HEMOFLUX_INLINE FaceSide<Value> side(std::size_t at, const std::ptrdiff_t (&ijk)[3]) const {
         FaceSide<Value> s;
         for (int c = 0; c < 4; ++c) {

@@ -61,7 +61,9 @@ class Factored {
     /// are. On the host, for the balance of momentum.
     [[nodiscard]] Vec3d side_impulse(std::array<std::vector<double>, 3> increments) const;
 
+    /// The step the factors are for.
     [[nodiscard]] double dt() const { return dt_; }
+    /// The viscosity the factors are for.
     [[nodiscard]] double nu() const { return nu_; }
 
   private:

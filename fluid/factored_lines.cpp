@@ -44,11 +44,6 @@ LineOperator density_operator(const std::vector<double>& widths, std::size_t gho
     return line;
 }
 
-HostLine factor_line(const std::vector<double>& widths, std::size_t ghosts, double strength, double delta,
-                     bool periodic, double low, double high) {
-    return factor_line(line_operator(widths, ghosts, strength, delta, periodic, low, high));
-}
-
 HostLine factor_line(const LineOperator& op) {
     const bool periodic = op.periodic;
     const double low = op.low, high = op.high;

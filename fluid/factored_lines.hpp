@@ -20,7 +20,10 @@ struct LineOperator {
     double low = 1, high = 1;  ///< factor by which a ghost repeats its border cell
 };
 
-/// The operator whose factors are factor_line().
+/// I - strength L on one axis. delta: smallest streaming distance of the faces across this axis; where it is less than half
+/// the distance s of two centres, the explicit viscous flux is stiffer by s/(2 delta), and so is L made. widths: cell
+/// widths with `ghosts` ghost cells at either end; periodic: cyclic line; low, high: factor by which a ghost repeats the
+/// increment of its border cell (-1 given value, +1 zero gradient).
 LineOperator line_operator(const std::vector<double>& widths, std::size_t ghosts, double strength,
                            double delta, bool periodic, double low, double high);
 
@@ -32,13 +35,5 @@ LineOperator density_operator(const std::vector<double>& widths, std::size_t gho
 
 /// Factors of an operator on its line.
 HostLine factor_line(const LineOperator& op);
-
-/// Factors of I - strength L on one axis. delta: smallest streaming distance of the faces across this axis;
-/// where it is less than half the distance s of two centres, the explicit viscous flux is stiffer by s/(2
-/// delta), and so is L made. widths: cell widths with `ghosts` ghost cells at either end; periodic: cyclic
-/// line; low, high: factor by which a ghost repeats the increment of its border cell (-1 given value, +1 zero
-/// gradient).
-HostLine factor_line(const std::vector<double>& widths, std::size_t ghosts, double strength, double delta,
-                     bool periodic, double low, double high);
 
 }  // namespace hemoflux::fluid

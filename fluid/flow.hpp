@@ -38,6 +38,7 @@ class Flow {
   public:
     virtual ~Flow() = default;
 
+    /// Number of cells.
     [[nodiscard]] virtual std::size_t cells() const = 0;
     /// Centre and volume of a cell.
     [[nodiscard]] virtual Vec3d centre(std::size_t cell) const = 0;
@@ -74,7 +75,7 @@ class Flow {
     virtual void write_conserved(const double* q) = 0;
     /// The residual dQ/dt last evaluated, laid out as above.
     virtual void read_residual(double* r) const = 0;
-    /// The local steps, one a cell, device memory.
+    /// The local steps, one a cell, device memory. Throws std::logic_error before set_local_steps().
     virtual void read_local_steps(double* dt) const = 0;
 
     /// The faces and boundary conditions as an implicit method sees them.

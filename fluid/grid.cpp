@@ -105,4 +105,13 @@ Grid::Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, d
     }
 }
 
+std::vector<double> ghosted_centres(const Grid& grid, std::size_t axis) {
+    const auto& widths = grid.ghosted_widths(static_cast<int>(axis));
+    double face = grid.rectilinear().axes[axis].lower();
+    for (std::size_t i = 0; i < g; ++i) face -= widths[i];
+    std::vector<double> centres;
+    for (const double w : widths) centres.push_back(face + w / 2), face += w;
+    return centres;
+}
+
 }  // namespace hemoflux::fluid

@@ -52,8 +52,11 @@ class Grid {
     Grid(const meshing::RectilinearGrid& grid, std::array<bool, 3> periodic, double delta_max = 1e300,
          GradientMethod gradient = GradientMethod::least_squares);
 
+    /// Valid as long as this object lives.
     [[nodiscard]] const GridView& view() const { return view_; }
+    /// The grid it was made of.
     [[nodiscard]] const meshing::RectilinearGrid& rectilinear() const { return rectilinear_; }
+    /// The axes that are periodic.
     [[nodiscard]] std::array<bool, 3> periodic() const { return periodic_; }
     /// True if every axis has equal widths.
     [[nodiscard]] bool uniform() const { return uniform_; }
@@ -76,5 +79,8 @@ class Grid {
     std::vector<exchange::Buffer<double>> buffers_;
     GridView view_;
 };
+
+/// Cell centres of one axis; entry i + exchange::ghosts is cell i, two ghost cells on either side.
+std::vector<double> ghosted_centres(const Grid& grid, std::size_t axis);
 
 }  // namespace hemoflux::fluid

@@ -140,13 +140,7 @@ void HexBoundary::check_mass_balance() const {
     }
     // Walls that move along themselves carry rounding only, which never balances to a share of itself.
     const double rounding = 1e-14 * largest * static_cast<double>(host_.size());
-    if (!closed() || std::abs(net) <= 1e-10 * gross + rounding) return;
-    throw InputError(
-        "the boundary",
-        fmt::format("the given velocities bring {:.3g} % more fluid in than out, and no side is open",
-                    -100 * net / gross),
-        "balance the velocities, or let one side have a zero-gradient velocity with a given density or "
-        "pressure");
+    if (closed() && std::abs(net) > 1e-10 * gross + rounding) refuse_imbalance(net, gross);
 }
 
 }  // namespace hemoflux::fluid

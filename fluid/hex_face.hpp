@@ -33,6 +33,7 @@ struct HexFace {
     const HexView& grid;
     std::size_t first;
 
+    /// Field k of the pack.
     HEMOFLUX_INLINE Value field(std::size_t k) const { return exchange::load<Value>(grid.field(first, k)); }
 
     /// Asks for the face data of a pack to come, one line a field.
@@ -42,6 +43,7 @@ struct HexFace {
                 exchange::prefetch(grid.field(first + 4 * face_block, k));
     }
 
+    /// Into the frames of the faces.
     HEMOFLUX_INLINE Rotation<Value> rotation() const {
         Rotation<Value> r;
         for (std::size_t a = 0; a < 3; ++a) {

@@ -69,10 +69,12 @@ class HexGeometry {
     HexGeometry(const meshing::HexGrid& grid, GradientMethod method, double delta_max,
                 const std::vector<char>& idle, std::size_t stage_cells = 0);
 
+    /// With records and fluxes in the rings of the sweep; valid as long as this object lives.
     [[nodiscard]] const HexView& view() const { return view_; }
     /// The same with a place of its own for the record of every cell and ghost cell, by its number, and for the flux of
     /// every face; for gradients and fluxes alone, HexView::side does not fit.
     [[nodiscard]] HexView whole_view() const;
+    /// The stages of the sweep in their order.
     [[nodiscard]] const std::vector<HexStage>& stages() const { return stages_; }
     /// Records and fluxes the sweep has places for.
     [[nodiscard]] std::size_t records() const { return records_; }

@@ -1,7 +1,5 @@
 #include "fluid/hex_solver.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -13,17 +11,11 @@
 namespace hemoflux::fluid {
 namespace {
 
-const SolverOptions& checked(const SolverOptions& o) {
-    if (!(o.nu > 0))
-        throw InputError(fmt::format("viscosity {}", o.nu), "it must be positive",
-                         "give a positive viscosity");
-    if (!(o.gamma > 0 && o.gamma <= 1))
-        throw InputError(fmt::format("gamma {}", o.gamma), "the preconditioning parameter lies in (0, 1]",
-                         "use 1 for no preconditioning");
+const SolverOptions& checked_without_rows(const SolverOptions& o) {
     if (o.scheme == Scheme::factored)
         throw InputError("scheme factored", "it needs rows of cells, which an unstructured grid has not",
                          "use rk4 or euler, or a rectilinear grid");
-    return o;
+    return checked(o);
 }
 
 /// Viscosity stands in the records of the body force.
@@ -35,7 +27,7 @@ SolverOptions with_place_for_viscosity(SolverOptions o) {
 }  // namespace
 
 HexSolver::HexSolver(meshing::HexGrid grid, const HexPatches& patches, const SolverOptions& options)
-    : options_(with_place_for_viscosity(checked(options))),
+    : options_(with_place_for_viscosity(checked_without_rows(options))),
       grid_(std::move(grid)),
       geometry_(grid_, options.gradient, largest_delta(options), idle_faces(grid_, patches)),
       boundary_(grid_, patches),
@@ -104,15 +96,7 @@ void HexSolver::offer(exchange::FieldTable& table) {
         table.offer("fluid", {"viscosity", Shape::scalar, "um c"}, {{f + 3, nullptr, nullptr}, size, 4});
 }
 
-FlowParameters HexSolver::flow_parameters() const {
-    const auto& f = options_.uniform_force;
-    const Vec3d wave = options_.oscillating_force.at(stage_time_);
-    return {options_.nu,
-            options_.gamma,
-            {f[0] + wave.x, f[1] + wave.y, f[2] + wave.z},
-            options_.with_force,
-            options_.with_viscosity};
-}
+FlowParameters HexSolver::flow_parameters() const { return parameters_at(options_, stage_time_); }
 
 HexFields HexSolver::fields() const {
     return {values_.data(), force_.data(), records_.data(), flux_.data(), rate_.data(), rings_};
@@ -145,7 +129,7 @@ void HexSolver::step(double dt) {
     const double start = time_;
     if (options_.scheme == Scheme::euler) {
         evaluate_at(start);
-        update_hex(cells(), values_.data(), rate_.data(), nullptr, {dt, 0, false, false, false}, nullptr,
+        update_hex(cells(), values_.data(), rate_.data(), nullptr, {dt, 0, false, false, false, nullptr},
                    values_.data());
     } else {
         runge_kutta(dt, nullptr, dt);
@@ -164,11 +148,11 @@ void HexSolver::runge_kutta(double dt, const double* local_dt, double advance) {
     for (int stage = 0; stage < 3; ++stage) {
         evaluate_at(start + time[stage] * advance);
         update_hex(cells(), base_.data(), rate_.data(), sum_.data(),
-                   {factor[stage] * dt, weight[stage], true, stage == 0, false}, local_dt, values_.data());
+                   {factor[stage] * dt, weight[stage], true, stage == 0, false, local_dt}, values_.data());
     }
     evaluate_at(start + advance);
-    update_hex(cells(), base_.data(), rate_.data(), sum_.data(), {dt / 6, weight[3], false, false, true},
-               local_dt, values_.data());
+    update_hex(cells(), base_.data(), rate_.data(), sum_.data(),
+               {dt / 6, weight[3], false, false, true, local_dt}, values_.data());
 }
 
 double HexSolver::largest_step(double speed) const {

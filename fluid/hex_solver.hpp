@@ -48,7 +48,6 @@ class HexSolver final : public Flow {
     void read_conserved(double* q) const override;
     void write_conserved(const double* q) override;
     void read_residual(double* r) const override;
-    /// std::logic_error before set_local_steps().
     void read_local_steps(double* dt) const override;
     [[nodiscard]] CompactModel compact_model() const override;
 
@@ -66,6 +65,7 @@ class HexSolver final : public Flow {
     /// stress. InputError when there is no such patch.
     [[nodiscard]] std::vector<WallFace> wall_faces(const std::string& patch) const override;
 
+    /// The grid in the numbering of the cells.
     [[nodiscard]] const meshing::HexGrid& grid() const { return grid_; }
     [[nodiscard]] const SolverOptions& options() const { return options_; }
     [[nodiscard]] const HexBoundary& boundary() const { return boundary_; }

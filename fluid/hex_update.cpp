@@ -4,6 +4,7 @@
 
 #include "exchange/parallel.hpp"
 #include "exchange/records.hpp"
+#include "fluid/norm_kernels.hpp"
 
 namespace hemoflux::fluid {
 namespace {
@@ -19,12 +20,11 @@ struct Update {
     const double* rate;
     double* sum;
     UpdateParameters p;
-    const double* local_dt;
     double* values;
 
     HEMOFLUX_FN void operator()(std::size_t cell) const {
         const std::size_t i = 4 * cell;
-        const double step = local_dt ? p.a * local_dt[cell] : p.a;
+        const double step = p.local_dt ? p.a * p.local_dt[cell] : p.a;
         Four total = load_four(rate + i);
         if (p.accumulate || p.use_sum) {
             Four weighted = p.w * total;
@@ -89,13 +89,6 @@ struct Components {
     }
 };
 
-struct Squares {
-    double c[4] = {0, 0, 0, 0};
-    HEMOFLUX_FN Squares& operator+=(const Squares& b) {
-        for (int i = 0; i < 4; ++i) c[i] += b.c[i];
-        return *this;
-    }
-};
 struct SquareOf {
     const double* rate;
     HEMOFLUX_FN Squares operator()(std::size_t cell) const {
@@ -136,15 +129,15 @@ struct IsBad {
     const double* values;
     HEMOFLUX_FN bool operator()(std::size_t cell) const {
         const double* q = values + 4 * cell;
-        return !(q[0] > 0.5 && q[0] < 1.5 && squared_speed(q) < 1.0);
+        return !possible(q[0], squared_speed(q));
     }
 };
 
 }  // namespace
 
 void update_hex(std::size_t cells, const double* base, const double* rate, double* sum,
-                const UpdateParameters& p, const double* local_dt, double* values) {
-    for_each_index(cells, Update{base, rate, sum, p, local_dt, values}, Cost::cheap);
+                const UpdateParameters& p, double* values) {
+    for_each_index(cells, Update{base, rate, sum, p, values}, Cost::cheap);
 }
 
 void hex_local_steps(const HexView& grid, const double* values, const LocalStepParameters& p, double* dt) {

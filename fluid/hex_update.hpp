@@ -8,11 +8,10 @@
 
 namespace hemoflux::fluid {
 
-/// values <- base + increment in conserved variables, as update() of fluid/update.hpp does on padded rows: increment =
-/// a rate, or a sum with use_sum, times every cell's own step where there is local_dt[cells]. base and values may be the
-/// same. sum: records of four, used with accumulate and use_sum.
+/// values <- base + increment in conserved variables, as update() of fluid/update.hpp does on padded rows, here in records
+/// of four; local_dt: one step a cell. base and values may be the same; sum may be null without accumulate and use_sum.
 void update_hex(std::size_t cells, const double* base, const double* rate, double* sum,
-                const UpdateParameters& parameters, const double* local_dt, double* values);
+                const UpdateParameters& parameters, double* values);
 
 /// Step of every cell, (2.55) to (2.58) with the preconditioned radii of fluid/local_step.hpp, into dt[cells].
 void hex_local_steps(const HexView& grid, const double* values, const LocalStepParameters& parameters,

@@ -13,13 +13,4 @@ HostFields host_fields(const Solver& solver) {
     return fields;
 }
 
-std::vector<double> ghosted_centres(const Grid& grid, std::size_t axis) {
-    const auto& widths = grid.ghosted_widths(static_cast<int>(axis));
-    double face = grid.rectilinear().axes[axis].lower();
-    for (std::size_t g = 0; g < exchange::ghosts; ++g) face -= widths[g];
-    std::vector<double> centres;
-    for (const double w : widths) centres.push_back(face + w / 2), face += w;
-    return centres;
-}
-
 }  // namespace hemoflux::fluid

@@ -22,7 +22,4 @@ struct HostFields {
 /// Fills the ghost cells and copies the fields.
 HostFields host_fields(const Solver& solver);
 
-/// Cell centres of one axis; entry i + exchange::ghosts is cell i, two ghost cells on either side.
-std::vector<double> ghosted_centres(const Grid& grid, std::size_t axis);
-
 }  // namespace hemoflux::fluid

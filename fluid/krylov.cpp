@@ -10,7 +10,15 @@ namespace {
 /// Values summed by one call, in eight interleaved sums that a compiler can keep in one register.
 constexpr std::size_t group = 64, interleaved = 8;
 
-HEMOFLUX_INLINE double total(const double (&sum)[interleaved]) {
+/// Sum of term(i) over group g of n values.
+template <class Term>
+HEMOFLUX_INLINE double group_sum(std::size_t n, std::size_t g, const Term& term) {
+    const std::size_t first = g * group, last = first + group < n ? first + group : n;
+    double sum[interleaved] = {0, 0, 0, 0, 0, 0, 0, 0};
+    std::size_t i = first;
+    for (; i + interleaved <= last; i += interleaved)
+        for (std::size_t l = 0; l < interleaved; ++l) sum[l] += term(i + l);
+    for (std::size_t l = 0; i + l < last; ++l) sum[l] += term(i + l);
     return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
 }
 
@@ -21,13 +29,7 @@ struct Projection {
     std::size_t n;
     HEMOFLUX_FN double operator()(std::size_t j, std::size_t g) const {
         const float* v = basis + j * n;
-        const std::size_t first = g * group, last = first + group < n ? first + group : n;
-        double sum[interleaved] = {0, 0, 0, 0, 0, 0, 0, 0};
-        std::size_t i = first;
-        for (; i + interleaved <= last; i += interleaved)
-            for (std::size_t l = 0; l < interleaved; ++l) sum[l] += static_cast<double>(v[i + l]) * w[i + l];
-        for (std::size_t l = 0; i + l < last; ++l) sum[l] += static_cast<double>(v[i + l]) * w[i + l];
-        return total(sum);
+        return group_sum(n, g, [&](std::size_t i) { return static_cast<double>(v[i]) * w[i]; });
     }
 };
 
@@ -35,13 +37,7 @@ struct SquareSum {
     const double* w;
     std::size_t n;
     HEMOFLUX_FN double operator()(std::size_t g) const {
-        const std::size_t first = g * group, last = first + group < n ? first + group : n;
-        double sum[interleaved] = {0, 0, 0, 0, 0, 0, 0, 0};
-        std::size_t i = first;
-        for (; i + interleaved <= last; i += interleaved)
-            for (std::size_t l = 0; l < interleaved; ++l) sum[l] += w[i + l] * w[i + l];
-        for (std::size_t l = 0; i + l < last; ++l) sum[l] += w[i + l] * w[i + l];
-        return total(sum);
+        return group_sum(n, g, [&](std::size_t i) { return w[i] * w[i]; });
     }
 };
 

@@ -17,13 +17,16 @@ namespace hemoflux::fluid {
 /// Orthonormal vectors of n values in device memory.
 class KrylovBasis {
   public:
+    /// Place for most + 1 vectors of n values.
     KrylovBasis(std::size_t n, std::size_t most);
     KrylovBasis(KrylovBasis&&) noexcept;
     ~KrylovBasis();
 
     /// Vector j.
     [[nodiscard]] const float* vector(std::size_t j) const { return basis_.data() + j * n_; }
+    /// Number of the last vector there is place for.
     [[nodiscard]] std::size_t most() const { return most_; }
+    /// Device memory of the vectors.
     [[nodiscard]] std::size_t bytes() const { return basis_.size() * sizeof(float); }
 
     /// Vector 0 <- w / |w|; returns |w|.
@@ -47,6 +50,7 @@ class KrylovBasis {
 /// The small least-squares problem of GMRES, kept triangular by Givens rotations.
 class HessenbergProblem {
   public:
+    /// beta: norm of the residual at the start.
     explicit HessenbergProblem(double beta) : g_{beta} {}
     /// Adds the column (h_0 .. h_k, h_(k+1)); returns the norm of the residual.
     double add(std::vector<double> column);

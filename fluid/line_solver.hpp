@@ -59,6 +59,8 @@ HEMOFLUX_INLINE void solve_lines(double* const (&r)[Fields], const LineFactors (
     }
 }
 
+/// Right-hand sides of some fields, which the solutions replace, the factors of their lines, and a factor of the right-hand
+/// sides.
 template <int Fields>
 struct Lines {
     exchange::Layout layout;

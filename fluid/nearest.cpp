@@ -5,11 +5,6 @@
 #include <numeric>
 
 namespace hemoflux::fluid {
-namespace {
-
-double component(const Vec3d& v, unsigned axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-}  // namespace
 
 NearestPoint::NearestPoint(std::vector<Vec3d> points)
     : points_(std::move(points)), order_(points_.size()), axis_(points_.size()) {

@@ -61,8 +61,9 @@ std::size_t NewtonKrylov::bytes() const {
 }
 
 /// Continuity and momentum count alike at the start, the three momenta with one scale. With c = 1 both residuals are of one
-/// kind (sound turns one into the other), so that neither is blown up where the start leaves it without residual, as a sheared
-/// layer leaves continuity: its rounding would drown the other. A constraint brings its own scale: all then count alike.
+/// kind (sound turns one into the other), so that neither is blown up where the start leaves it without residual, as a
+/// sheared layer leaves continuity: its rounding would drown the other. A constraint brings its own scale: all then
+/// count alike.
 void NewtonKrylov::set_scales() {
     if (constraint_) return;
     const ResidualNorm r = flow_.residual_norm();

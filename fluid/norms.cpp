@@ -3,6 +3,7 @@
 
 #include "exchange/pack.hpp"
 #include "exchange/parallel.hpp"
+#include "fluid/norm_kernels.hpp"
 #include "fluid/solver.hpp"
 
 namespace hemoflux::fluid {
@@ -18,14 +19,6 @@ struct Cells {
     }
 };
 
-/// Sum of squares of four fields.
-struct Squares {
-    double c[4] = {0, 0, 0, 0};
-    HEMOFLUX_FN Squares& operator+=(const Squares& b) {
-        for (int i = 0; i < 4; ++i) c[i] += b.c[i];
-        return *this;
-    }
-};
 struct SquareOf : Cells {
     HEMOFLUX_FN Squares operator()(std::size_t cell) const {
         const std::size_t i = at(cell);
@@ -56,7 +49,7 @@ struct IsBad : Cells {
         const std::size_t i = at(cell);
         const double speed2 =
             state.q[1][i] * state.q[1][i] + state.q[2][i] * state.q[2][i] + state.q[3][i] * state.q[3][i];
-        return !(state.q[0][i] > 0.5 && state.q[0][i] < 1.5 && speed2 < 1.0);
+        return !possible(state.q[0][i], speed2);
     }
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "exchange/error.hpp"
+#include "fluid/time_step.hpp"
 
 namespace hemoflux::fluid {
 namespace {
@@ -92,11 +93,6 @@ std::vector<CellShape> cell_shapes(const meshing::HexGrid& grid) {
     return shapes;
 }
 
-double viscous_ratio(const CellShape& cell, double nu, double gamma, double c) {
-    return c * 2 * nu * dot(cell.projection, cell.projection) /
-           (gamma * cell.volume * sound * sum(cell.projection));
-}
-
 double equivalent_edge(const CellShape& cell) {
     return cell.volume * sum(cell.projection) / dot(cell.projection, cell.projection);
 }
@@ -104,7 +100,7 @@ double equivalent_edge(const CellShape& cell) {
 double condition_number(double gamma, double mach) { return 1 + gamma / mach; }
 
 double corrected_condition_number(double gamma, double mach) {
-    const double u = mach * sound, root = std::sqrt(u * u * (1 - gamma) + gamma * gamma * sound * sound);
+    const double u = mach * sound, root = preconditioned_sound(u, gamma);
     return (u + root) / std::min(u, std::abs(u - root));
 }
 
@@ -136,6 +132,7 @@ PreconditioningChoice choose_preconditioning(const std::vector<CellShape>& cells
     }
     choice.common_size = sizes[first_of_fullest + fullest / 2];
     choice.mach = in.speed / sound;
+    // Gamma_vc at gamma = 1 of the cube of this edge, with the weight C = 4 of local_step.hpp
     const auto ratio_at_one = [&](double edge) { return 8 * in.nu / (sound * edge); };
     const double first = std::min(1.0, 2 * choice.mach);
     choice.gamma = in.gamma > 0 ? in.gamma : std::min(1.0, std::max(first, ratio_at_one(choice.common_size)));

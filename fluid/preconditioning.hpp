@@ -30,9 +30,8 @@ struct CellShape {
 std::vector<CellShape> cell_shapes(const meshing::RectilinearGrid& grid);
 std::vector<CellShape> cell_shapes(const meshing::HexGrid& grid);
 
-/// Ratio of the viscous to the convective radius of a cell at rest, C Lambda_v / Lambda_c by (2.56) to (2.58).
-double viscous_ratio(const CellShape& cell, double nu, double gamma, double c = 4);
-/// Edge of the cube with the same ratio: V sum_a S_a / sum_a S_a^2.
+/// Edge of the cube with the same ratio of the viscous to the convective radius, C Lambda_v / Lambda_c by (2.56) to (2.58):
+/// V sum_a S_a / sum_a S_a^2.
 double equivalent_edge(const CellShape& cell);
 /// 1 + gamma / Ma (4.14).
 double condition_number(double gamma, double mach);

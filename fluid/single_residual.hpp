@@ -21,7 +21,9 @@ class SingleResidual {
 
     /// The steps of evaluate(): rounding the state, its residual in single precision, and widening that.
     void round(const StateView& state);
+    /// Evaluates R of the state last rounded, in single precision.
     void evaluate_rounded(const BoundaryView& boundary, const FlowParameters& parameters);
+    /// Writes R in double precision.
     void widen(const ResidualView& out) const;
 
   private:

@@ -17,8 +17,6 @@ double largest_delta(const SolverOptions& o) {
     return o.tau_floor > 0 ? 3 * nu / (o.gamma * o.tau_floor) : 1e300;
 }
 
-namespace {
-
 const SolverOptions& checked(const SolverOptions& o) {
     if (!(o.nu > 0))
         throw InputError(fmt::format("viscosity {}", o.nu), "it must be positive",
@@ -29,7 +27,14 @@ const SolverOptions& checked(const SolverOptions& o) {
     return o;
 }
 
-}  // namespace
+FlowParameters parameters_at(const SolverOptions& o, double t) {
+    const Vec3d wave = o.oscillating_force.at(t);
+    return {o.nu,
+            o.gamma,
+            {o.uniform_force[0] + wave.x, o.uniform_force[1] + wave.y, o.uniform_force[2] + wave.z},
+            o.with_force,
+            o.with_viscosity};
+}
 
 Solver::Solver(const meshing::RectilinearGrid& grid, const Patches& patches, const SolverOptions& options)
     : options_(checked(options)),
@@ -88,15 +93,7 @@ void Solver::set_values(int component, const std::vector<double>& values) {
     state_.set_interior(state_.view().q[component], values);
 }
 
-FlowParameters Solver::flow_parameters() const {
-    const auto& f = options_.uniform_force;
-    const Vec3d wave = options_.oscillating_force.at(stage_time_);
-    return {options_.nu,
-            options_.gamma,
-            {f[0] + wave.x, f[1] + wave.y, f[2] + wave.z},
-            options_.with_force,
-            options_.with_viscosity};
-}
+FlowParameters Solver::flow_parameters() const { return parameters_at(options_, stage_time_); }
 
 ResidualView Solver::residual_view(const State& fields) const {
     const auto& q = fields.view().q;

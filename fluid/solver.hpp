@@ -37,6 +37,12 @@ struct SolverOptions {
 /// Largest streaming distance that keeps tau - 1/2 at its floor: 3 nu / (gamma tau_floor).
 double largest_delta(const SolverOptions& options);
 
+/// The options themselves. Throws InputError when viscosity or gamma is out of range.
+const SolverOptions& checked(const SolverOptions& options);
+
+/// What the residual takes from the options at time t.
+FlowParameters parameters_at(const SolverOptions& options, double t);
+
 /// The flow solver on a rectilinear grid; cells are numbered x fastest.
 class Solver final : public Flow {
   public:
@@ -84,11 +90,14 @@ class Solver final : public Flow {
     double largest_speed() override;
     std::size_t first_bad_cell() override;
 
+    /// The grid as the kernels see it.
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const SolverOptions& options() const { return options_; }
+    /// The fields; kernels of other rooms write force and viscosity into them.
     [[nodiscard]] State& state() { return state_; }
     [[nodiscard]] const State& state() const { return state_; }
     [[nodiscard]] const Boundary& boundary() const { return boundary_; }
+    /// dQ/dt as last evaluated, laid out like the state: density, then momentum.
     [[nodiscard]] const State& residual() const { return residual_; }
     [[nodiscard]] std::size_t evaluations() const override { return evaluations_; }
 

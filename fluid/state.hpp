@@ -26,6 +26,7 @@ using SingleStateView = BasicStateView<float>;
 /// so that unused SIMD lanes stay finite.
 class State {
   public:
+    /// Without force or viscosity their pointers in view() are null.
     State(const exchange::Layout& layout, bool with_force, bool with_viscosity, double nu);
 
     [[nodiscard]] const StateView& view() const { return view_; }

@@ -61,8 +61,9 @@ struct SteadyResult {
 using SteadyObserver = std::function<bool(const SteadyRecord&)>;
 
 /// Iterates until the criterion is met. With a constraint the method must be newton, and what is compared with the
-/// tolerance is the residual of all equations together over its value at the start, whatever the criterion. Throws NumericalError, naming the cell, when the flow is no longer finite or its
-/// density or speed is out of range, and InputError for a tolerance that is not positive.
+/// tolerance is the residual of all equations together over its value at the start, whatever the criterion. Throws
+/// NumericalError, naming the cell, when the flow is no longer finite or its density or speed is out of range, and
+/// InputError for a tolerance that is not positive or local steps with a constraint.
 SteadyResult find_steady_state(Flow& flow, const SteadyOptions& options, const SteadyObserver& observer = {},
                                Constraint* constraint = nullptr);
 

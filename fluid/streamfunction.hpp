@@ -19,6 +19,7 @@ struct PlaneField {
     meshing::Axis x, y;
     std::vector<double> values;
 
+    /// Value in cell (i, j).
     [[nodiscard]] double at(std::size_t i, std::size_t j) const { return values[j * x.cells() + i]; }
 };
 
@@ -26,11 +27,12 @@ struct PlaneField {
 /// for any other grid.
 PlaneField streamfunction(const Solver& solver);
 
-/// Solves laplace psi = -zeta with given values at the face centres of the sides (lower and upper x: y.cells() values
-/// each; lower and upper y: x.cells() values each).
+/// Values at the face centres of the four sides of a plane grid.
 struct PlaneBorder {
-    std::vector<double> x_lower, x_upper, y_lower, y_upper;
+    std::vector<double> x_lower, x_upper;  ///< y.cells() values each
+    std::vector<double> y_lower, y_upper;  ///< x.cells() values each
 };
+/// Solves laplace psi = -zeta with psi given on the sides; psi at the centres, x fastest.
 std::vector<double> solve_poisson(const PlaneField& vorticity, const PlaneBorder& psi);
 
 }  // namespace hemoflux::fluid

@@ -20,14 +20,17 @@ constexpr std::size_t max_rows = 20;
 /// Even split of n cells into pieces of at most `most`.
 struct Split {
     std::size_t pieces, size, n;
+    /// count cells in pieces whose size is a multiple of `multiple`, but for the last.
     Split(std::size_t count, std::size_t most, std::size_t multiple) : n(count) {
         pieces = (n + most - 1) / most;
         size = exchange::round_up((n + pieces - 1) / pieces, multiple);
         pieces = (n + size - 1) / size;
     }
+    /// First cell of piece p.
     HEMOFLUX_INLINE std::ptrdiff_t first(std::size_t p) const {
         return static_cast<std::ptrdiff_t>(p * size);
     }
+    /// One past its last cell.
     HEMOFLUX_INLINE std::ptrdiff_t last(std::size_t p) const {
         return static_cast<std::ptrdiff_t>((p + 1) * size < n ? (p + 1) * size : n);
     }

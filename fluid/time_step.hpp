@@ -1,8 +1,9 @@
 /// Stability limits of the time step on rectilinear grids.
 ///
-/// Viscosity. The scheme's eigenvalue on a face normal to axis a is 2 nu / (dx_a delta_a); a velocity component feels its own
-/// direction twice (2.45), so the largest is lambda_v = 2 nu [sum_a 1/(dx_a delta_a) + max_a 1/(dx_a delta_a)], which is
-/// 16 nu / h^2 on a uniform grid (delta = h/2). The bound (2.50) of the thesis is up to 2.7 times too optimistic.
+/// Viscosity. The scheme's eigenvalue on a face normal to axis a is 2 nu / (dx_a delta_a); a velocity component feels
+/// its own direction twice (2.45), so the largest is lambda_v = 2 nu [sum_a 1/(dx_a delta_a) + max_a 1/(dx_a delta_a)],
+/// which is 16 nu / h^2 on a uniform grid (delta = h/2). The bound (2.50) of the thesis is up to 2.7 times too
+/// optimistic.
 ///
 /// Convection and sound: lambda_c = |u|/dx + |v|/dy + |w|/dz + c_s sqrt(1/dx^2 + 1/dy^2 + 1/dz^2)   (2.47, with c_s).
 /// Three points on either side of a face make sound up to 1.17 times as fast on the grid.
@@ -33,8 +34,6 @@ inline constexpr double real_limit_euler = 2.0, real_limit_rk4 = 2.785;
 inline constexpr double streaming_rate = 2.0 / 3;
 /// Radius of a half disc in RK4's stability region.
 inline constexpr double radius_rk4 = 2.6;
-/// Extent of RK4's stability region along the imaginary axis (2.37).
-inline constexpr double imaginary_limit_rk4 = 2.828;
 /// Share of dt c = h that is used with the factored scheme, whose density part is explicit: noise in uniform and stretched
 /// cubes and in columns of flat cells stays bounded exactly up to 1.
 inline constexpr double factored_limit = 0.9;

@@ -6,14 +6,17 @@
 
 namespace hemoflux::fluid {
 
-/// state <- base + increment, in conserved variables, where increment = a r. base and state may be the same
-/// fields. With `sum`, also sum <- (first ? 0 : sum) + w r; with `use_sum` the increment is a sum instead of
-/// a r. With `local_dt` (a field in the state's layout) every cell's increment is multiplied by its own step.
+/// What one update does.
 struct UpdateParameters {
-    double a = 0, w = 0;
-    bool accumulate = false, first = false, use_sum = false;
-    const double* local_dt = nullptr;
+    double a = 0;                      ///< factor of the residual, or of the sum
+    double w = 0;                      ///< weight of the residual in the sum
+    bool accumulate = false;           ///< sum <- (first ? 0 : sum) + w r
+    bool first = false;                ///< the sum begins with this residual
+    bool use_sum = false;              ///< the increment is a (sum + w r) instead of a r
+    const double* local_dt = nullptr;  ///< every cell's own step, which multiplies its increment; null: 1
 };
+/// state <- base + increment, in conserved variables. base and state may be the same fields; local_dt is a field in their
+/// layout.
 void update(const exchange::Layout& layout, const StateView& base, const ResidualView& r,
             const ResidualView& sum, const UpdateParameters& parameters, const StateView& state);
 

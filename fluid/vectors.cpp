@@ -1,4 +1,6 @@
 // The solver's fields as plain device vectors of cells, x fastest, one component after the other.
+#include <stdexcept>
+
 #include "exchange/parallel.hpp"
 #include "fluid/row_kernel.hpp"
 #include "fluid/solver.hpp"
@@ -77,6 +79,8 @@ void Solver::read_residual(double* r) const {
 }
 
 void Solver::read_local_steps(double* dt) const {
+    if (local_dt_.size() == 0)
+        throw std::logic_error("Solver::read_local_steps: set_local_steps() comes first");
     const exchange::Layout& layout = grid_.view().layout;
     each_row(layout, ReadField{{{layout}}, local_dt_.data(), dt});
 }

@@ -12,6 +12,7 @@ namespace hemoflux::fluid {
 /// Force of the fluid on a patch in lattice units (length^2 c^2), with its two parts.
 struct WallForce {
     Vec3d pressure{0, 0, 0}, viscous{0, 0, 0};
+    /// Pressure and viscous part together.
     [[nodiscard]] Vec3d total() const { return pressure + viscous; }
 };
 

@@ -18,6 +18,7 @@ namespace hemoflux::membrane {
 /// Energies of one cell by term, 1e-17 J, (6.1).
 struct Energies {
     double volume, area, local_area, bending, area_difference, shear;
+    /// E, their sum.
     [[nodiscard]] double total() const {
         return volume + area + local_area + bending + area_difference + shear;
     }
@@ -33,11 +34,13 @@ class Batch {
     Batch(std::shared_ptr<const Topology> topology, const Parameters& parameters, const Reference& reference,
           std::size_t cells = 1);
 
+    /// Number of cells.
     [[nodiscard]] std::size_t cells() const { return cells_; }
     /// Vertices of one cell.
     [[nodiscard]] std::size_t vertices() const { return topology_->vertices(); }
     /// Elements from one cell to the next; vertices() rounded up to exchange::row_alignment.
     [[nodiscard]] std::size_t stride() const { return stride_; }
+    /// Of every cell, as are the moduli and the reference.
     [[nodiscard]] const Topology& topology() const { return *topology_; }
     [[nodiscard]] std::shared_ptr<const Topology> shared_topology() const { return topology_; }
     [[nodiscard]] const Parameters& parameters() const { return parameters_; }
@@ -67,13 +70,15 @@ class Batch {
     [[nodiscard]] std::vector<Vec3d> forces(std::size_t cell) const;
 
     /// Forces -grad E of all terms at the current positions. Throws NumericalError that names cell, edge,
-    /// vertices and length when a spring has reached its contour length, a position is not a number, or a Voronoi area is not positive.
+    /// vertices and length when a spring has reached its contour length, a position is not a number, or a Voronoi area
+    /// is not positive.
     void compute_forces();
     /// As compute_forces(), but returns false, with the forces undefined, where that one throws.
     [[nodiscard]] bool try_compute_forces();
 
     /// Volume, area, total curvature and energies of one cell, as of the last compute_forces().
     [[nodiscard]] const CellSums& sums(std::size_t cell) const { return sums_[cell]; }
+    /// Energies of one cell by term, likewise.
     [[nodiscard]] Energies energies(std::size_t cell) const;
 
     /// Device pointers and scalars, for the kernels of this room.

@@ -88,6 +88,7 @@ struct CurvatureTask {
         return select(inside, theta * length, zero);
     }
 
+    /// One pack of vertices, from number v of the cell on: stores dE/dS and dE/dA, adds to the sums.
     HEMOFLUX_INLINE void vertices(std::size_t cell, std::size_t v, LaneSums<Value>& sums) const {
         const std::size_t here = cell * w.stride + v;
         const std::size_t degrees = static_cast<std::size_t>(w.group_degree[v / exchange::row_alignment]);
@@ -143,11 +144,10 @@ struct CurvatureTask {
     }
 
     HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
+        const Chunk chunk = chunk_of(task, w.stride);
         LaneSums<Value> s;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>) vertices(cell, v, s);
+        for (std::size_t v = chunk.first; v < chunk.last; v += exchange::lanes<Value>)
+            vertices(chunk.cell, v, s);
         CellSums& p = partial[task];
         // Every triangle was met at three corners, every edge at two ends.
         p.volume = exchange::lane_sum(s.volume) / 18;

@@ -13,6 +13,8 @@ template <class Value, bool Triangles>
 struct ForceTask {
     ForceView w;
 
+    /// One pack of vertices, from number v of the cell on. pressure, tension, by_total_curvature: dE/dV, dE/dA and
+    /// dE/dM of the cell.
     HEMOFLUX_INLINE void vertices(std::size_t cell, std::size_t v, double pressure, double tension,
                                   double by_total_curvature) const {
         const std::size_t base = cell * w.stride, here = base + v;
@@ -57,18 +59,16 @@ struct ForceTask {
     }
 
     HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
-        const CellSums& sums = w.sums[cell];
+        const Chunk chunk = chunk_of(task, w.stride);
+        const CellSums& sums = w.sums[chunk.cell];
         const double pressure = volume_pressure(w.k_volume, sums.volume, w.volume0);
         const double tension = area_tension(w.k_area, sums.area, w.total_area0) + w.linear_area;
         const double by_total_curvature =
             area_difference_by_curvature(w.k_area_difference, sums.total_curvature, w.total_curvature0,
                                          w.total_area0) +
             w.linear_curvature;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>)
-            vertices(cell, v, pressure, tension, by_total_curvature);
+        for (std::size_t v = chunk.first; v < chunk.last; v += exchange::lanes<Value>)
+            vertices(chunk.cell, v, pressure, tension, by_total_curvature);
     }
 };
 

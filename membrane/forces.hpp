@@ -53,10 +53,12 @@ struct ForceView {
     double *by_curvature, *by_area;          ///< dE/dS_j and dE/dA_j of each vertex of each cell
     double *bend, *spring, *inverse_normal;  ///< theta/L, (dE_S/dL)/L and 1/|xi| of each slot of each cell
     CellSums* sums;                          ///< of each cell
+    /// The moduli of ConstraintModuli and BendingModuli.
     double k_volume, k_area, k_local_area, k_bending, k_area_difference;
     /// Added to dE/dM and dE/dA of the cell: -K_B C_0 and K_B C_0^2 / 2 where k_bending is left to
     /// gompper_kroll.hpp, else 0.
     double linear_curvature, linear_area;
+    /// V_0, A_0, C_0 and M_0 of one cell.
     double volume0, total_area0, curvature0, total_curvature0;
     NetworkModuli network;
     double stretch_ratio;
@@ -74,6 +76,7 @@ constexpr bool stores_triangle_tension(InPlaneLaw law) {
 /// Scratch memory of the sums; one per batch.
 class ForceScratch {
   public:
+    /// For a batch of so many cells, `stride` elements each.
     ForceScratch(std::size_t cells, std::size_t stride);
     ~ForceScratch();
     ForceScratch(ForceScratch&&) noexcept;

@@ -42,12 +42,10 @@ struct LaplacianTask {
     }
 
     HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
+        const Chunk chunk = chunk_of(task, w.stride);
         Value energy = 0.0, degenerate = 0.0;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>)
-            vertices(cell, v, energy, degenerate);
+        for (std::size_t v = chunk.first; v < chunk.last; v += exchange::lanes<Value>)
+            vertices(chunk.cell, v, energy, degenerate);
         CellSums sums;
         sums.helfrich_energy = exchange::lane_sum(energy);
         sums.degenerate = exchange::lane_sum(degenerate);
@@ -111,10 +109,9 @@ struct LaplacianForceTask {
     }
 
     HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>) vertices(cell, v);
+        const Chunk chunk = chunk_of(task, w.stride);
+        for (std::size_t v = chunk.first; v < chunk.last; v += exchange::lanes<Value>)
+            vertices(chunk.cell, v);
     }
 };
 

@@ -34,6 +34,7 @@ struct LaplacianView {
 /// Scratch memory of the sums; one per batch.
 class LaplacianScratch {
   public:
+    /// For a batch of so many cells, `stride` elements each.
     LaplacianScratch(std::size_t cells, std::size_t stride);
     ~LaplacianScratch();
     LaplacianScratch(LaplacianScratch&&) noexcept;

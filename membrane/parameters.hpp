@@ -9,6 +9,9 @@
 
 namespace hemoflux::membrane {
 
+inline constexpr double piconewton = 0.1;         ///< 1 pN in the internal unit of force
+inline constexpr double attojoule_per_unit = 10;  ///< the internal unit of energy in aJ
+
 namespace detail {
 /// Throws InputError unless value >= 0 (NaN is refused too).
 inline void not_negative(const char* name, double value) {

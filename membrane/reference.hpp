@@ -43,7 +43,8 @@ struct RestState {
 };
 
 /// A_0, V_0, r, C_0 = c_0/R_0 and M_0 of `rest`; A_k0 and L_0 are those of `shape`, which shares the topology.
-/// A spheroid of semi-axes 1.13360 R_0 (1, 1, 0.65214) gives the discocyte; the relaxed discocyte itself gives the stress-free cell.
+/// A spheroid of semi-axes 1.13360 R_0 (1, 1, 0.65214) gives the discocyte; the relaxed discocyte itself gives the
+/// stress-free cell.
 Reference reference_from_shape(const Topology& topology, const std::vector<Vec3d>& shape,
                                const RestState& rest = {});
 
@@ -71,10 +72,7 @@ inline constexpr double spectrin_vertices = 27344, spectrin_length = 0.075;
 /// 0.245 um at 2562 vertices (the thesis quotes 0.228 um without its N_f and l_f).
 double coarse_grained_length(std::size_t vertices, double area = red_blood_cell::area);
 
-/// Reduced volume of the spheroid of area A_0 from which the discocyte takes L_0 and A_k0, and its semi-axes
-/// over R_0.
+/// Reduced volume of the spheroid of area A_0 from which the discocyte takes L_0 and A_k0.
 inline constexpr double reference_reduced_volume = 0.95;
-inline constexpr double reference_spheroid_equator = 1.13360;
-inline constexpr double reference_spheroid_pole = 1.13360 * 0.65214;
 
 }  // namespace hemoflux::membrane

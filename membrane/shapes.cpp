@@ -6,6 +6,7 @@
 
 #include "membrane/batch.hpp"
 #include "membrane/diagnostics.hpp"
+#include "membrane/symmetry.hpp"
 #include "meshing/evans_fung.hpp"
 #include "meshing/icosphere.hpp"
 #include "meshing/spheroid.hpp"
@@ -70,7 +71,8 @@ Cell make_discocyte(const meshing::SurfaceMesh& sphere, const ShapeOptions& opti
     }
     if (options.reference != ReferenceKind::spheroid) {
         batch.set_reference(reference_of(*cell.topology, sphere, batch.positions(0), options));
-        cell.relaxation = relax(batch, options.relaxation);
+        cell.relaxation = relax_symmetric(
+            batch, options.camber == 0 ? symmetries(sphere) : std::vector<Symmetry>{}, options.relaxation);
     }
     cell.reference = batch.reference();
     cell.positions = batch.positions(0);

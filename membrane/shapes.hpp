@@ -58,8 +58,8 @@ struct Cell {
 };
 
 /// Relaxed discocyte on a mesh of a sphere about the origin, of any radius. Every kind of reference starts
-/// from the disc of the spheroid reference with the same moduli. Throws InputError on bad parameters or a
-/// reference shape that does not fit, NumericalError when a relaxation fails.
+/// from the disc of the spheroid reference with the same moduli, and without camber keeps what symmetries (symmetry.hpp)
+/// sphere and reference have. InputError on bad parameters or a reference shape that does not fit, else as relax().
 Cell make_discocyte(const meshing::SurfaceMesh& sphere, const ShapeOptions& options = {});
 
 /// The same on the icosphere of a level (1: 42, 2: 162, 3: 642, 4: 2562, 5: 10242 vertices).

@@ -12,9 +12,6 @@
 namespace hemoflux::membrane {
 namespace {
 
-/// 1 pN in the internal unit of force.
-constexpr double piconewton = 0.1;
-
 /// Mirror images of one another differ in x by what the relaxation left; they count as tied, um.
 constexpr double tie = 1e-4;
 
@@ -61,15 +58,15 @@ PulledVertices pulled_vertices(const std::vector<Vec3d>& rest, const Grip& grip)
     if (grip.contact_diameter > 0) {
         pulled = {.left = touched(rest, -1, grip.contact_diameter / 2),
                   .right = touched(rest, 1, grip.contact_diameter / 2)};
-        for (const int v : pulled.left)
-            if (std::binary_search(pulled.right.begin(), pulled.right.end(), v))
-                throw InputError(
-                    fmt::format("{} and {} pulled vertices", pulled.left.size(), pulled.right.size()),
-                    fmt::format("both ends hold vertex {}", v), "Let the beads hold less of the cell");
     } else {
         const long count = std::max(1L, std::lround(grip.fraction * static_cast<double>(rest.size())));
         pulled = {.left = outermost(rest, -1, count), .right = outermost(rest, 1, count)};
     }
+    for (const int v : pulled.left)
+        if (std::binary_search(pulled.right.begin(), pulled.right.end(), v))
+            throw InputError(
+                fmt::format("{} and {} pulled vertices", pulled.left.size(), pulled.right.size()),
+                fmt::format("both ends hold vertex {}", v), "Let the beads hold less of the cell");
     return pulled;
 }
 

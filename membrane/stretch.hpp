@@ -35,9 +35,6 @@ PulledVertices pulled_vertices(const std::vector<Vec3d>& rest, const Grip& grip 
 /// Force on each vertex, 1e-11 N: `force_pN` along +-x, shared out among the pulled vertices of each end.
 std::vector<Vec3d> pulling_loads(const PulledVertices& pulled, std::size_t vertices, double force_pN);
 
-/// Force on each vertex, 1e-11 N: `force_pN` along +-x, shared out among the pulled vertices of each end.
-std::vector<Vec3d> pulling_loads(const PulledVertices& pulled, std::size_t vertices, double force_pN);
-
 /// The cell at one force.
 struct StretchPoint {
     double force_pN = 0;

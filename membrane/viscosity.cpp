@@ -17,15 +17,14 @@ struct AdvanceTask {
     double *tension, *length;
 
     HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>) {
-            const Vec3<Value> r = load_position<Value>(w, cell * w.stride + v);
+        const Chunk chunk = chunk_of(task, w.stride);
+        for (std::size_t v = chunk.first; v < chunk.last; v += exchange::lanes<Value>) {
+            const Vec3<Value> r = load_position<Value>(w, chunk.cell * w.stride + v);
             const auto degrees = static_cast<std::size_t>(w.group_degree[v / exchange::row_alignment]);
             for (std::size_t i = 0; i < degrees; ++i) {
-                const std::size_t at = (cell * w.slots + i) * w.stride + v;
-                const Vec3<Value> d = gather_position<Value>(w, cell, w.neighbour + i * w.stride + v) - r;
+                const std::size_t at = (chunk.cell * w.slots + i) * w.stride + v;
+                const Vec3<Value> d =
+                    gather_position<Value>(w, chunk.cell, w.neighbour + i * w.stride + v) - r;
                 const Value now = square_root(dot(d, d));
                 const Value change = now - load<Value>(length + at);
                 store(tension + at, keep * load<Value>(tension + at) + gain * change);
@@ -42,19 +41,18 @@ struct AddTask {
     const double* tension;
 
     HEMOFLUX_FN void operator()(std::size_t task) const {
-        const std::size_t chunks = chunks_of(w.stride), cell = task / chunks;
-        const std::size_t first = task % chunks * chunk_vertices;
-        const std::size_t last = first + chunk_vertices < w.stride ? first + chunk_vertices : w.stride;
-        for (std::size_t v = first; v < last; v += exchange::lanes<Value>) {
-            const std::size_t here = cell * w.stride + v;
+        const Chunk chunk = chunk_of(task, w.stride);
+        for (std::size_t v = chunk.first; v < chunk.last; v += exchange::lanes<Value>) {
+            const std::size_t here = chunk.cell * w.stride + v;
             const Value degree = load<Value>(w.degree + v), zero(0.0);
             const Vec3<Value> r = load_position<Value>(w, here);
             Vec3<Value> force{zero, zero, zero};
             const auto degrees = static_cast<std::size_t>(w.group_degree[v / exchange::row_alignment]);
             for (std::size_t i = 0; i < degrees; ++i) {
                 const auto inside = Value(static_cast<double>(i)) < degree;
-                const std::size_t at = (cell * w.slots + i) * w.stride + v;
-                const Vec3<Value> d = gather_position<Value>(w, cell, w.neighbour + i * w.stride + v) - r;
+                const std::size_t at = (chunk.cell * w.slots + i) * w.stride + v;
+                const Vec3<Value> d =
+                    gather_position<Value>(w, chunk.cell, w.neighbour + i * w.stride + v) - r;
                 const Value pull = load<Value>(tension + at) / square_root(dot(d, d));
                 force += select3(inside, pull * d, Vec3<Value>{zero, zero, zero});
             }

@@ -80,17 +80,4 @@ std::vector<std::uint32_t> reverse_cuthill_mckee(const Graph& graph) {
     return order;
 }
 
-std::size_t bandwidth(const Graph& graph, const std::vector<std::uint32_t>& order) {
-    std::vector<std::size_t> number(order.size());
-    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = i;
-    std::size_t widest = 0;
-    for (std::uint32_t i = 0; i < graph.nodes(); ++i) {
-        for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e) {
-            const std::size_t a = number[i], b = number[graph.to[e]];
-            widest = std::max(widest, a > b ? a - b : b - a);
-        }
-    }
-    return widest;
-}
-
 }  // namespace hemoflux::meshing

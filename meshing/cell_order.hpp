@@ -10,14 +10,12 @@ namespace hemoflux::meshing {
 struct Graph {
     std::vector<std::uint32_t> first, to;
 
+    /// Number of nodes.
     [[nodiscard]] std::size_t nodes() const { return first.empty() ? 0 : first.size() - 1; }
 };
 
 /// Reverse Cuthill-McKee: order[new number] = old number. Each connected part starts from a node far from all
 /// others (George and Liu 1979); ties go to the lower old number, so the result is determined.
 std::vector<std::uint32_t> reverse_cuthill_mckee(const Graph& graph);
-
-/// Largest difference of the numbers of two neighbours when numbered by `order`.
-std::size_t bandwidth(const Graph& graph, const std::vector<std::uint32_t>& order);
 
 }  // namespace hemoflux::meshing

@@ -80,7 +80,7 @@ PlaneMesh paved_square(double wall, double middle) {
     geo::synchronize();
     const auto set = [](const char* option, double value) { gmsh::option::setNumber(option, value); };
     set("Mesh.Algorithm", 6);  // frontal Delaunay; 8, meant for quadrilaterals, crashes in gmsh 4.8
-    set("Mesh.RecombinationAlgorithm", 3);
+    set("Mesh.RecombinationAlgorithm", 3);  // blossom full-quad, which leaves no triangles
     set("Mesh.MeshSizeExtendFromBoundary", 0);
     set("Mesh.MeshSizeFromPoints", 0);
     mesh::setSizeCallback([=](int, int, double x, double y, double) { return middle * width(wall, x, y); });
@@ -97,8 +97,8 @@ PlaneMesh paved_square(double wall, double middle) {
         plane.nodes.push_back({x[3 * i], x[3 * i + 1]});
     }
     const auto elements = [&number](int type, int entity) {
-        std::vector<std::size_t> names,
-            nodes;  // always empty ones: gmsh takes others to be of the right size
+        // always empty ones: gmsh takes others to be of the right size
+        std::vector<std::size_t> names, nodes;
         mesh::getElementsByType(type, names, nodes, entity);
         std::vector<std::uint32_t> out;
         for (const std::size_t n : nodes) out.push_back(number.at(n));
@@ -141,8 +141,8 @@ void even_out(PlaneMesh& plane) {
     for (const PlaneMesh::Side& side : plane.sides)
         for (const auto& edge : side.edges) fixed[edge[0]] = fixed[edge[1]] = true;
     std::vector<std::vector<std::uint32_t>> neighbours(plane.nodes.size());
-    for (const auto& quad :
-         plane.quads)  // inner edges are met from both sides: each neighbour is listed once
+    // inner edges are met from both sides: each neighbour is listed once
+    for (const auto& quad : plane.quads)
         for (std::size_t k = 0; k < 4; ++k) neighbours[quad[k]].push_back(quad[(k + 1) % 4]);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         for (std::size_t i = 0; i < plane.nodes.size(); ++i) {

@@ -62,6 +62,7 @@ struct HexGrid {
     /// Patches that are not glued, in the order of the mesh.
     std::vector<Patch> patches;
 
+    /// Numbers of cells, faces and border faces.
     [[nodiscard]] std::size_t cells() const { return volume.size(); }
     [[nodiscard]] std::size_t faces() const { return left.size(); }
     [[nodiscard]] std::size_t border_faces() const {

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include "exchange/error.hpp"
+#include "meshing/file_format.hpp"
 #include "meshing/hex_formats.hpp"
 
 namespace hemoflux::meshing {
@@ -25,14 +24,7 @@ struct Format {
 
 const Format& format_of(const fs::path& path) {
     static constexpr Format formats[] = {{".msh", read_msh, write_msh}, {".vtu", read_vtu, write_vtu}};
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    for (const Format& format : formats)
-        if (extension == format.extension) return format;
-    throw InputError("mesh file " + path.string(),
-                     fmt::format("its extension \"{}\" is not known", extension),
-                     "Use .msh (gmsh) or .vtu (VTK)");
+    return choose_format(path, formats, "mesh file", ".msh (gmsh) or .vtu (VTK)");
 }
 
 void check_readable(const fs::path& path) {
@@ -51,8 +43,8 @@ void drop_unused_nodes(HexMesh& mesh) {
     std::vector<std::uint32_t> number(mesh.nodes.size(), 0);
     for (const auto& cell : mesh.cells)
         for (const std::uint32_t n : cell) number[n] = 1;
-    for (const HexMesh::Patch& patch :
-         mesh.patches)  // a patch apart from the cells is for make_hex_grid to refuse
+    // a patch apart from the cells is for make_hex_grid to refuse
+    for (const HexMesh::Patch& patch : mesh.patches)
         for (const auto& face : patch.faces)
             for (const std::uint32_t n : face) number[n] = 1;
     std::uint32_t used = 0;

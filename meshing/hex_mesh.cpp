@@ -16,10 +16,4 @@ HexMesh scaled(HexMesh mesh, double factor) {
     return mesh;
 }
 
-const HexMesh::Patch* find_patch(const HexMesh& mesh, const std::string& name) {
-    for (const HexMesh::Patch& patch : mesh.patches)
-        if (patch.name == name) return &patch;
-    return nullptr;
-}
-
 }  // namespace hemoflux::meshing

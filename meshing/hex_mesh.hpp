@@ -41,7 +41,4 @@ inline constexpr std::array<std::array<int, 4>, 6> hex_faces{
 /// The mesh with all lengths multiplied by `factor`. InputError unless factor is finite and positive.
 HexMesh scaled(HexMesh mesh, double factor);
 
-/// The patch of that name, or nullptr.
-const HexMesh::Patch* find_patch(const HexMesh& mesh, const std::string& name);
-
 }  // namespace hemoflux::meshing

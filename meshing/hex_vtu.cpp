@@ -3,7 +3,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
-#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -17,7 +16,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <new>
 #include <system_error>
 
 #include "meshing/hex_formats.hpp"
@@ -90,19 +88,8 @@ HexMesh read_vtu(const std::string& file) {
     const std::string text = file_text(file);
     const VtkSilence silence;  // of its compressors too
     check_vtk(text, "UnstructuredGrid");
-    vtkNew<VtkListener> listener;
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
-    reader->AddObserver(vtkCommand::ErrorEvent, listener);
-    reader->SetParserErrorObserver(listener);
-    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
-    reader->ReadFromInputStringOn();
-    reader->SetInputString(text);
-    try {
-        reader->Update();
-    } catch (const std::bad_alloc&) {
-        throw FormatError("it claims more values than memory holds");
-    }
-    if (!listener->first().empty()) throw FormatError(listener->first());
+    const vtkNew<vtkXMLUnstructuredGridReader> reader;
+    read_xml(*reader.Get(), text);
     vtkUnstructuredGrid* data = reader->GetOutput();
     HexMesh mesh = sort_cells(data);
     mesh.nodes.reserve(static_cast<std::size_t>(data->GetNumberOfPoints()));

@@ -197,10 +197,4 @@ void check_surface(const SurfaceMesh& mesh, const std::string& name, std::size_t
     check.shape();
 }
 
-bool orient_outward(SurfaceMesh& mesh) {
-    if (!(volume(mesh) < 0)) return false;
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    return true;
-}
-
 }  // namespace hemoflux::meshing

@@ -19,8 +19,4 @@ inline constexpr std::size_t smallest_cell_mesh = 42;
 void check_surface(const SurfaceMesh& mesh, const std::string& name,
                    std::size_t fewest_vertices = smallest_cell_mesh);
 
-/// Turns all triangles round if the enclosed volume is negative; returns whether it did. For imported meshes
-/// that are inverted as a whole.
-bool orient_outward(SurfaceMesh& mesh);
-
 }  // namespace hemoflux::meshing

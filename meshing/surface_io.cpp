@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -14,6 +13,7 @@
 #include <system_error>
 
 #include "exchange/error.hpp"
+#include "meshing/file_format.hpp"
 #include "meshing/surface_formats.hpp"
 
 namespace hemoflux::meshing {
@@ -32,14 +32,7 @@ const Format& format_of(const fs::path& path) {
                                          {".ply", parse_ply, print_ply},
                                          {".stl", parse_stl, print_stl},
                                          {".obj", parse_obj, print_obj}};
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    for (const Format& format : formats)
-        if (extension == format.extension) return format;
-    throw InputError("surface file " + path.string(),
-                     fmt::format("its extension \"{}\" is not known", extension),
-                     "Use .vtp, .ply, .stl or .obj");
+    return choose_format(path, formats, "surface file", ".vtp, .ply, .stl or .obj");
 }
 
 std::string reason_of(int error) { return std::generic_category().message(error); }

@@ -1,7 +1,6 @@
 // VTP: VTK's XML PolyData.
 #include <fmt/format.h>
 #include <vtkCellArray.h>
-#include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
@@ -19,15 +18,8 @@ namespace hemoflux::meshing {
 SurfaceMesh parse_vtp(const std::string& text) {
     const VtkSilence silence;  // of its compressors too
     check_vtk(text, "PolyData");
-    vtkNew<VtkListener> listener;
-    vtkNew<vtkXMLPolyDataReader> reader;
-    reader->AddObserver(vtkCommand::ErrorEvent, listener);
-    reader->SetParserErrorObserver(listener);
-    reader->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
-    reader->ReadFromInputStringOn();
-    reader->SetInputString(text);
-    reader->Update();
-    if (!listener->first().empty()) throw FormatError(listener->first());
+    const vtkNew<vtkXMLPolyDataReader> reader;
+    read_xml(*reader.Get(), text);
     vtkPolyData* data = reader->GetOutput();
     if (data->GetNumberOfStrips() > 0) throw FormatError("it holds triangle strips instead of triangles");
     SurfaceMesh mesh;

@@ -2,16 +2,22 @@
 #pragma once
 
 #include <vtkCommand.h>
+#include <vtkExecutive.h>
 #include <vtkLogger.h>
+#include <vtkNew.h>
 #include <vtkOutputWindow.h>
 
+#include <new>
 #include <string>
+
+#include "meshing/format_error.hpp"
 
 namespace hemoflux::meshing {
 
 /// Keeps the first error of the objects it observes, which VTK would print otherwise.
 class VtkListener : public vtkCommand {
   public:
+    /// As VTK makes its objects.
     static VtkListener* New() { return new VtkListener; }
 
     void Execute(vtkObject* /*caller*/, unsigned long /*event*/, void* data) override {
@@ -54,5 +60,23 @@ class VtkSilence {
     int mode_;
     vtkLogger::Verbosity verbosity_;
 };
+
+/// Lets one of VTK's XML readers read a text. FormatError with the first error it has to tell.
+template <class Reader>
+void read_xml(Reader& reader, const std::string& text) {
+    const VtkSilence silence;
+    const vtkNew<VtkListener> listener;
+    reader.AddObserver(vtkCommand::ErrorEvent, listener);
+    reader.SetParserErrorObserver(listener);
+    reader.GetExecutive()->AddObserver(vtkCommand::ErrorEvent, listener);
+    reader.ReadFromInputStringOn();
+    reader.SetInputString(text);
+    try {
+        reader.Update();
+    } catch (const std::bad_alloc&) {
+        throw FormatError("it claims more values than memory holds");
+    }
+    if (!listener->first().empty()) throw FormatError(listener->first());
+}
 
 }  // namespace hemoflux::meshing

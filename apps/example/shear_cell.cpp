@@ -1,5 +1,6 @@
 // One red blood cell in shear flow, fluid and membrane coupled by hand: neither solver knows of the other, and the loop at
-// the end is all that joins them. Says how the cell stands after three strain units and returns 0 if that is as it should be.
+// the end is all that joins them. Says how the cell stands after three strain units and returns 0 if that is as it
+// should be.
 #include <cmath>
 #include <cstdio>
 #include <vector>

@@ -37,6 +37,7 @@ class Checkpoint {
     /// the text is ("the case", "the version of hemoflux").
     void require_text(const std::string& name, const std::string& expected, const std::string& meaning) const;
 
+    /// All that is stored, by name.
     [[nodiscard]] const std::map<std::string, std::vector<double>>& arrays() const noexcept {
         return arrays_;
     }

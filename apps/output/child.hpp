@@ -11,6 +11,7 @@ namespace hemoflux::output {
 
 /// How a child process ended and what it printed.
 struct ChildResult {
+    /// The four ways to end.
     enum class End { exited, signalled, timed_out, not_started } end;
     int code = 0;        ///< exit status or signal
     std::string output;  ///< standard output and standard error together

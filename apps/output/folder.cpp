@@ -70,10 +70,9 @@ bool begun(const fs::path& path) {
 
 bool is_run_file(const std::string& name) {
     constexpr std::string_view fixed[] = {
-        "resolved.toml", "summary.json", "history.csv", "stretch.csv",      "shapes.csv",
-        "moduli.csv",    "recovery.csv", "errors.csv",  "calibration.csv",  "thickness.csv",
-        "log.txt",       "fluid.pvd",    "cells.pvd",   "centreline_u.csv", "centreline_v.csv",
-        "wall.csv",      "fields.vtr",   "fields.vtu",  "report.html"};
+        "resolved.toml", "summary.json",     "history.csv",      "stretch.csv",   "shapes.csv", "moduli.csv",
+        "recovery.csv",  "errors.csv",       "calibration.csv",  "thickness.csv", "log.txt",    "fluid.pvd",
+        "cells.pvd",     "centreline_u.csv", "centreline_v.csv", "wall.csv",      "report.html"};
     if (std::find(std::begin(fixed), std::end(fixed), name) != std::end(fixed)) return true;
     if (is_unfinished(name)) return true;
 
@@ -85,7 +84,7 @@ bool is_run_file(const std::string& name) {
                                       [](char c) { return c >= '0' && c <= '9'; });
     if (numbered && kind == "checkpoint") return end == ".bin";
     if (name.starts_with("profile_")) return end == ".csv";
-    if (numbered && (kind == "fluid" || kind == "cells" || kind == "last_good"))
+    if (numbered && (kind == "fluid" || kind == "cells"))
         return end == ".vtr" || end == ".vtu" || end == ".vtp";
     return (name.starts_with("picture_") || name.starts_with("plot_")) && (end == ".png" || end == ".svg");
 }

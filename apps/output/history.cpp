@@ -91,31 +91,6 @@ History::History(std::filesystem::path path, std::vector<std::string> columns)
     : path_(std::move(path)), columns_(std::move(columns)) {
     check_columns(columns_);
     write_file(path_, header(columns_));
-    open_to_append();
-}
-
-History History::resume(std::filesystem::path path, std::vector<std::string> columns, double last_step) {
-    check_columns(columns);
-    Table table = read_table(path);
-    if (table.columns != columns) {
-        const auto [had, want] =
-            std::mismatch(table.columns.begin(), table.columns.end(), columns.begin(), columns.end());
-        throw InputError(
-            "cannot continue " + path.string(),
-            fmt::format("it has column {} where this run writes {}",
-                        had == table.columns.end() ? "none" : *had, want == columns.end() ? "none" : *want),
-            "Restart with the case that made the folder");
-    }
-    std::erase_if(table.rows, [last_step](const auto& row) { return row.front() > last_step; });
-    write_table(path, table);
-    History history;
-    history.path_ = std::move(path);
-    history.columns_ = std::move(columns);
-    history.open_to_append();
-    return history;
-}
-
-void History::open_to_append() {
     file_.open(path_, std::ios::app);
     if (!file_)
         throw FileError("cannot write " + path_.string(), "it cannot be opened",

@@ -17,8 +17,9 @@ struct Table {
     [[nodiscard]] std::vector<double> column(const std::string& name) const;
 };
 
-/// Reads a CSV file of numbers with one header line; lines that begin with # are comments. A last line without its line end (the program was killed
-/// while writing it) is left out. FileError when unreadable, InputError naming the line that is malformed.
+/// Reads a CSV file of numbers with one header line; lines that begin with # are comments. A last line without its line
+/// end (the program was killed while writing it) is left out. FileError when unreadable, InputError naming the line
+/// that is malformed.
 Table read_table(const std::filesystem::path& path);
 
 /// Writes a CSV file of numbers, whole at once (atomically); every digit of the doubles. FileError.
@@ -31,23 +32,11 @@ class History {
     /// Starts a file with these columns ("step" first, names unique). FileError when it cannot be written.
     History(std::filesystem::path path, std::vector<std::string> columns);
 
-    /// Continues the file of an earlier run: rows beyond last_step are removed (atomically), later ones
-    /// appended. InputError when the columns differ from those in the file, naming the first difference.
-    static History resume(std::filesystem::path path, std::vector<std::string> columns, double last_step);
-
     /// Appends one row, flushed to the operating system; one value per column. FileError when the disk is
     /// full.
     void add(const std::vector<double>& row);
 
-    /// The declared columns.
-    [[nodiscard]] const std::vector<std::string>& columns() const noexcept { return columns_; }
-    /// The file.
-    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
   private:
-    History() = default;
-    void open_to_append();
-
     std::filesystem::path path_;
     std::vector<std::string> columns_;
     std::ofstream file_;

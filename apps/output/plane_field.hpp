@@ -14,6 +14,7 @@ using Polyline = std::vector<std::array<double, 2>>;
 struct Lattice {
     std::vector<double> x, y;
 
+    /// Place of point (i, j) in a field; number of points.
     [[nodiscard]] std::size_t at(std::size_t i, std::size_t j) const { return j * x.size() + i; }
     [[nodiscard]] std::size_t size() const { return x.size() * y.size(); }
 };

@@ -8,16 +8,10 @@
 #include <iterator>
 
 #include "apps/output/child.hpp"
+#include "apps/output/gnuplot_text.hpp"
 
 namespace hemoflux::output {
 namespace {
-
-/// A gnuplot string in single quotes, in which nothing but the quote is special.
-std::string quoted(const std::string& text) {
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
-    return out + "'";
-}
 
 void add_lines(std::string& script, const std::vector<Polyline>& lines) {
     for (const Polyline& line : lines) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "apps/output/child.hpp"
+#include "apps/output/gnuplot_text.hpp"
 
 namespace hemoflux::output {
 namespace {
@@ -15,13 +16,6 @@ namespace {
 // Okabe and Ito's colours, told apart by colour-blind readers as well
 constexpr const char* colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                    "#E69F00", "#56B4E9", "#000000"};
-
-/// A gnuplot string in single quotes, in which nothing but the quote is special.
-std::string quoted(const std::string& text) {
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("''") : std::string(1, c == '\n' ? ' ' : c);
-    return out + "'";
-}
 
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();

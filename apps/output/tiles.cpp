@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 #include <vtkActor.h>
-#include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
 #include <vtkContourTriangulator.h>
 #include <vtkCutter.h>
 #include <vtkDataArray.h>
@@ -19,27 +17,23 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
-#include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
 #include <vtkStripper.h>
-#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
-#include <vtkWindowToImageFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "apps/output/atomic_file.hpp"
+#include "apps/output/palette.hpp"
 #include "apps/output/render.hpp"
+#include "apps/output/tile_window.hpp"
 #include "exchange/error.hpp"
 
 namespace hemoflux::output {
 namespace {
-
-using Image = vtkSmartPointer<vtkImageData>;
 
 constexpr int tile_width = 420;
 constexpr int text_size = 19;
@@ -51,27 +45,6 @@ struct Show {
     vtkSmartPointer<vtkLookupTable> colours;
     std::string array;
 };
-
-/// Blue to white to red over [-limit, limit], or white to red from 0 where nothing is negative.
-vtkSmartPointer<vtkLookupTable> diverging(double low, double high) {
-    vtkNew<vtkColorTransferFunction> scale;
-    scale->SetColorSpaceToLab();
-    const double limit = std::max({std::abs(low), std::abs(high), 1e-12});
-    const double from = low < 0 ? -limit : 0;
-    scale->AddRGBPoint(-limit, 0.10, 0.30, 0.65);
-    scale->AddRGBPoint(0, 0.96, 0.94, 0.90);
-    scale->AddRGBPoint(limit, 0.75, 0.10, 0.12);
-    auto table = vtkSmartPointer<vtkLookupTable>::New();
-    constexpr int n = 256;
-    table->SetNumberOfTableValues(n);
-    table->SetRange(from, limit);
-    for (int i = 0; i < n; ++i) {
-        double rgb[3];
-        scale->GetColor(from + (limit - from) * i / (n - 1), rgb);
-        table->SetTableValue(i, rgb[0], rgb[1], rgb[2]);
-    }
-    return table;
-}
 
 /// The range that holds all but the outermost hundredth of the values at either end.
 std::array<double, 2> usual_range(const Show& show) {
@@ -106,69 +79,6 @@ Show read_show(const GallerySpec& spec) {
     return show;
 }
 
-/// A white picture of a given size to draw on. All share one off-screen window: displays have few to give.
-struct Window {
-    vtkNew<vtkRenderer> renderer;
-
-    Window(int width, int height) {
-        shared()->SetSize(width, height);
-        shared()->AddRenderer(renderer);
-        renderer->SetBackground(1, 1, 1);
-    }
-    ~Window() { shared()->RemoveRenderer(renderer); }
-    Window(const Window&) = delete;
-    Window& operator=(const Window&) = delete;
-
-    static vtkRenderWindow* shared() {
-        static const vtkSmartPointer<vtkRenderWindow> window = [] {
-            auto made = vtkSmartPointer<vtkRenderWindow>::New();
-            made->SetOffScreenRendering(1);
-            made->SetMultiSamples(8);
-            return made;
-        }();
-        return window;
-    }
-
-    void text(const std::string& words, double x, double y, int size, bool centred) {
-        vtkNew<vtkTextActor> actor;
-        actor->SetInput(words.c_str());
-        vtkTextProperty* look = actor->GetTextProperty();
-        look->SetColor(0.1, 0.1, 0.1);
-        look->SetFontSize(size);
-        look->SetFontFamilyToArial();
-        look->SetLineSpacing(1.15);
-        look->SetVerticalJustificationToTop();
-        if (centred) look->SetJustificationToCentered();
-        actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-        actor->SetPosition(x, y);
-        renderer->AddActor2D(actor);
-    }
-
-    void camera(vtkPolyData* surface, const std::array<double, 3>& from, double scale) {
-        double b[6];
-        surface->GetBounds(b);
-        const double x = 0.5 * (b[0] + b[1]), y = 0.5 * (b[2] + b[3]), z = 0.5 * (b[4] + b[5]);
-        vtkCamera* camera = renderer->GetActiveCamera();
-        camera->ParallelProjectionOn();
-        camera->SetFocalPoint(x, y, z);
-        camera->SetPosition(x + 100 * from[0], y + 100 * from[1], z + 100 * from[2]);
-        camera->SetViewUp(0, 0, 1);
-        camera->SetParallelScale(scale);
-        renderer->ResetCameraClippingRange();
-    }
-
-    Image image() {
-        shared()->Render();
-        vtkNew<vtkWindowToImageFilter> grab;
-        grab->SetInput(shared());
-        grab->ReadFrontBufferOff();
-        grab->Update();
-        auto copy = Image::New();
-        copy->DeepCopy(grab->GetOutput());
-        return copy;
-    }
-};
-
 vtkNew<vtkActor> coloured_actor(vtkPolyDataMapper* mapper, double r, double g, double b) {
     mapper->ScalarVisibilityOff();
     vtkNew<vtkActor> actor;
@@ -178,10 +88,10 @@ vtkNew<vtkActor> coloured_actor(vtkPolyDataMapper* mapper, double r, double g, d
 }
 
 Image draw_surface(vtkPolyData* surface, const Show& show, int height, double scale) {
-    Window w(tile_width, height);
+    TileWindow w(tile_width, height);
     vtkNew<vtkLightKit> lights;
     lights->SetKeyLightIntensity(0.85);
-    lights->AddLightsToRenderer(w.renderer);
+    lights->AddLightsToRenderer(w.renderer());
     vtkNew<vtkPolyDataNormals> normals;
     normals->SetInputData(surface);
     normals->SplittingOff();
@@ -203,13 +113,13 @@ Image draw_surface(vtkPolyData* surface, const Show& show, int height, double sc
     look->SetSpecular(0.12);
     look->SetSpecularPower(25);
     look->SetInterpolationToPhong();
-    w.renderer->AddActor(actor);
+    w.renderer()->AddActor(actor);
     w.camera(surface, {0, -0.72, 0.69}, scale);
     return w.image();
 }
 
 Image draw_section(vtkPolyData* surface, int height, double scale, bool with_bar) {
-    Window w(tile_width, height);
+    TileWindow w(tile_width, height);
     double b[6];
     surface->GetBounds(b);
     const double y = 0.5 * (b[2] + b[3]);
@@ -233,8 +143,8 @@ Image draw_section(vtkPolyData* surface, int height, double scale, bool with_bar
     const vtkNew<vtkActor> edge = coloured_actor(outline, 0.55, 0.06, 0.06);
     edge->GetProperty()->LightingOff();
     edge->GetProperty()->SetLineWidth(2.5);
-    w.renderer->AddActor(fill);
-    w.renderer->AddActor(edge);
+    w.renderer()->AddActor(fill);
+    w.renderer()->AddActor(edge);
     if (with_bar) {
         const double left = 0.5 * (b[0] + b[1]) - 0.92 * scale * tile_width / height;
         const double low = 0.5 * (b[4] + b[5]) - 0.9 * scale;
@@ -246,7 +156,7 @@ Image draw_section(vtkPolyData* surface, int height, double scale, bool with_bar
         const vtkNew<vtkActor> actor = coloured_actor(mapper, 0.1, 0.1, 0.1);
         actor->GetProperty()->SetLineWidth(3);
         actor->GetProperty()->LightingOff();
-        w.renderer->AddActor(actor);
+        w.renderer()->AddActor(actor);
         w.text("2 \xC2\xB5m", 0.04, 0.05 + 1.5 * text_size / height, text_size - 4, false);
     }
     w.camera(surface, {0, -1, 0}, scale);
@@ -254,14 +164,14 @@ Image draw_section(vtkPolyData* surface, int height, double scale, bool with_bar
 }
 
 Image draw_text(const std::string& words, int width, int height, int size) {
-    Window w(width, height);
+    TileWindow w(width, height);
     w.text(words, 0.5, 0.9, size, true);
     return w.image();
 }
 
 Image draw_scale(const Show& show, const std::string& legend, int width) {
     constexpr int height = 96;
-    Window w(width, height);
+    TileWindow w(width, height);
     vtkNew<vtkScalarBarActor> bar;
     bar->SetLookupTable(show.colours);
     bar->SetOrientationToHorizontal();
@@ -278,7 +188,7 @@ Image draw_scale(const Show& show, const std::string& legend, int width) {
     bar->SetWidth(0.5);
     bar->SetHeight(0.6);
     bar->SetBarRatio(0.4);
-    w.renderer->AddActor2D(bar);
+    w.renderer()->AddActor2D(bar);
     w.text(legend, 0.5, 0.97, text_size - 1, true);
     return w.image();
 }

@@ -27,8 +27,8 @@ DataArray vector_array(std::string name, const std::vector<double>& x, const std
 inline constexpr int fast = 1;
 
 /// Writes cell data on a rectilinear grid (.vtr): cells in the order i fastest, then j, then k; no ghost
-/// cells. time is stored as the field TimeValue. Atomic, compressed by zlib (level 1 to 9; 0: not), double precision. FileError when it
-/// cannot be written.
+/// cells. time is stored as the field TimeValue. Atomic, compressed by zlib (level 1 to 9; 0: not), double precision.
+/// FileError when it cannot be written.
 void write_fluid(const std::filesystem::path& path, const std::array<meshing::Axis, 3>& axes,
                  const std::vector<DataArray>& cell_data, double time, int compression = fast);
 

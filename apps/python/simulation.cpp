@@ -5,16 +5,18 @@
 #include <cmath>
 
 #include "exchange/error.hpp"
+#include "fluid/cell_report.hpp"
 
 namespace hemoflux::python {
-namespace {
-constexpr double piconewton_per_unit = 10;  // 1e-11 N
-}  // namespace
 
 Simulation::Simulation(const apps::Case& c, const output::Checkpoint* checkpoint) : case_(c) {
     columns_ = {"step", "time_s"};
     switch (case_.kind) {
         case apps::CaseKind::coupled:
+            if (case_.time.adaptive)
+                throw InputError("time.adaptive",
+                                 "a simulation that is advanced step by step has equal steps",
+                                 "Leave it out, or use hemoflux.run");
             coupled_.emplace(case_);
             coupled_->add_cells(case_, checkpoint);
             observer_.emplace(*coupled_->cells);
@@ -78,8 +80,7 @@ void Simulation::advance(long long steps) {
 void Simulation::check_fluid() {
     const std::size_t bad = flow().first_bad_cell();
     if (bad == flow().cells()) return;
-    const Vec3d at = flow().centre(bad);
-    throw NumericalError(fmt::format("fluid cell {} at ({:.3f}, {:.3f}, {:.3f}) um", bad, at.x, at.y, at.z),
+    throw NumericalError(fluid::describe_cell(flow(), bad),
                          "its density or velocity is no longer a sound number",
                          "Shorten time.step or lower numerics.mach");
 }
@@ -134,7 +135,7 @@ std::vector<Vec3d> Simulation::forces(std::size_t cell) {
     static_cast<void>(batch(cell));
     coupled_->cells->compute_forces();
     std::vector<Vec3d> forces = coupled_->cells->forces(cell);
-    for (Vec3d& f : forces) f = piconewton_per_unit * f;
+    for (Vec3d& f : forces) f = 1 / membrane::piconewton * f;
     return forces;
 }
 

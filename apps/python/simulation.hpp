@@ -31,21 +31,26 @@ class Simulation {
     /// steady and has no time.
     void advance(long long steps);
 
+    /// The case.
     [[nodiscard]] const apps::Case& input() const { return case_; }
+    /// Steps done since t = 0.
     [[nodiscard]] long long done() const { return done_; }
     /// Steps from 0 to the end that the case names.
     [[nodiscard]] long long planned() const { return plan().steps; }
+    /// Time, s.
     [[nodiscard]] double time_s() const;
     /// Shear rate times time; NaN where the case has no shear rate and no cells.
     [[nodiscard]] double strain() const;
 
     /// Cells of the fluid along z, y, x; on a mesh their number alone.
     [[nodiscard]] std::vector<long long> shape() const;
+    /// Density and velocity of every cell of the fluid.
     [[nodiscard]] std::vector<double> density() const;
     [[nodiscard]] std::vector<Vec3d> velocity() const;
     /// Centres of the fluid's cells.
     [[nodiscard]] std::vector<Vec3d> centres() const;
 
+    /// Number of membrane cells.
     [[nodiscard]] std::size_t cells() const { return coupled_ ? coupled_->cells->cells() : 0; }
     /// InputError when there is no such cell.
     [[nodiscard]] std::vector<Vec3d> nodes(std::size_t cell) const;

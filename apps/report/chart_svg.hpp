@@ -22,8 +22,8 @@ struct Chart {
 /// Whether there is anything to draw.
 bool has_data(const Chart& chart);
 
-/// The chart as a figure element: title, SVG with axes, units, bands and curves, legend below. Long curves are thinned so that
-/// every peak stays. Curves keep their order as colours unless they name one.
+/// The chart as a figure element: title, SVG with axes, units, bands and curves, legend below. Long curves are thinned
+/// so that every peak stays. Curves keep their order as colours unless they name one.
 std::string chart_svg(const Chart& chart);
 
 }  // namespace hemoflux::report

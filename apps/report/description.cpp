@@ -27,10 +27,12 @@ std::size_t length_of(const RunRecord& run, const std::string& path) {
 }
 
 std::string grid(const RunRecord& run) {
-    if (const std::string file = run.text("grid.file"); !file.empty())
+    if (const std::string file = run.text("grid.mesh.file"); !file.empty())
         return "the mesh " + std::filesystem::path(file).filename().string();
+    if (const std::string shape = run.text("grid.mesh.kind"); !shape.empty())
+        return fmt::format("an unstructured mesh {} a {}", shape == "cylinder" ? "around" : "of",
+                           shape == "constriction" ? "narrowed pipe" : shape);
     const std::string cells = product(run, "grid.cells"), kind = run.text("grid.kind");
-    if (cells.empty()) return "an unstructured mesh";
     return fmt::format("a {} grid of {} cells over {}", kind.empty() ? "rectilinear" : kind, cells,
                        product(run, "grid.length"));
 }
@@ -81,7 +83,7 @@ std::string flow(const RunRecord& run) {
     std::string text = fmt::format("A {} computed by the lattice Boltzmann flux solver on {}{}. {}.",
                                    steady ? "steady flow" : "flow in time", grid(run),
                                    steady ? "" : duration(run), fluid(run));
-    if (const std::string exact = run.text("analytical.solution"); !exact.empty() && exact != "none")
+    if (const std::string exact = run.text("analytical.solution"); !exact.empty())
         text += " It is compared with the exact solution \xE2\x80\x9C" + exact + "\xE2\x80\x9D.";
     return text;
 }

@@ -12,8 +12,8 @@ struct QuantityName {
     [[nodiscard]] std::string with_unit() const { return unit.empty() ? text : text + ", " + unit; }
 };
 
-/// What the name of an observable or of a column means; the unit is the end of the name. A prefix that ends with a dot (the cell or
-/// body it belongs to) is kept in front.
+/// What the name of an observable or of a column means; the unit is the end of the name. A prefix that ends with a dot
+/// (the cell or body it belongs to) is kept in front.
 QuantityName quantity_name(const std::string& key);
 
 }  // namespace hemoflux::report

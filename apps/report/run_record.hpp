@@ -49,6 +49,7 @@ struct RunRecord {
     [[nodiscard]] const output::Table* table(const std::string& name) const;
     /// A text of the case by its path ("membrane.task"), "" where there is none.
     [[nodiscard]] std::string text(const std::string& path) const;
+    /// Whether the folder is that of a sweep.
     [[nodiscard]] bool is_sweep() const { return kind == "sweep"; }
 };
 

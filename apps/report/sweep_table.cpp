@@ -14,12 +14,15 @@
 namespace hemoflux::report {
 namespace {
 
-/// Cells of a line; those with commas stand in quotes.
+/// Cells of a line; those with commas or quotes stand in quotes, in which quotes are doubled.
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;
-    for (const char c : line) {
-        if (c == '"')
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+            cells.back() += line[++i];
+        else if (c == '"')
             quoted = !quoted;
         else if (c == ',' && !quoted)
             cells.emplace_back();

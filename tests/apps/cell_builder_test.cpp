@@ -19,7 +19,7 @@ CellInput cell_with(const std::vector<std::string>& sets) {
 TEST(CellBuilder, ModuliInInternalUnits) {
     const membrane::Parameters p =
         membrane_parameters(cell_with({"cell.0.membrane_viscosity=0.7e-6 Pa s m"}));
-    EXPECT_DOUBLE_EQ(p.constraint.volume, 100);  // table 6.1 in internal units, spec of the membrane
+    EXPECT_DOUBLE_EQ(p.constraint.volume, 100);  // Table 6.1 in internal units
     EXPECT_NEAR(p.constraint.area, 100, 1e-12);
     EXPECT_NEAR(p.constraint.local_area, 10, 1e-12);
     EXPECT_NEAR(p.bending.local, 0.025, 1e-15);

@@ -25,10 +25,30 @@ class CommandLine : public Program {
 };
 
 TEST_F(CommandLine, HelpAndVersionAtEveryLevel) {
-    for (const char* level :
-         {"", "run", "mesh", "mesh grid", "mesh rbc", "mesh hex", "mesh hex cube", "mesh hex cylinder",
-          "mesh hex pipe", "mesh hex constriction", "mesh hex box", "mesh hex check", "membrane",
-          "membrane relax", "membrane stretch", "bench", "bench thesis", "schema", "report"}) {
+    for (const char* level : {"",
+                              "run",
+                              "sweep",
+                              "mesh",
+                              "mesh grid",
+                              "mesh rbc",
+                              "mesh hex",
+                              "mesh hex cube",
+                              "mesh hex cylinder",
+                              "mesh hex pipe",
+                              "mesh hex constriction",
+                              "mesh hex box",
+                              "mesh hex check",
+                              "membrane",
+                              "membrane relax",
+                              "membrane stretch",
+                              "membrane shapes",
+                              "membrane moduli",
+                              "membrane relax-back",
+                              "membrane calibrate",
+                              "bench",
+                              "bench thesis",
+                              "schema",
+                              "report"}) {
         const Outcome outcome = run(std::string(level) + " --help");
         EXPECT_EQ(outcome.code, 0) << level;
         EXPECT_NE(outcome.text.find("Example"), std::string::npos) << level << "\n" << outcome.text;
@@ -170,7 +190,7 @@ TEST_F(CommandLine, MeshGridPrintsSizesAndWrites) {
     EXPECT_EQ(outcome.code, 0) << outcome.text;
     EXPECT_NE(outcome.text.find("30 x 30 x 30 = 27000"), std::string::npos) << outcome.text;
     EXPECT_NE(outcome.text.find("cells of 0.2687"), std::string::npos)
-        << outcome.text;  // spec: smallest cell 0.269 um
+        << outcome.text;  // the smallest by (5.31)
     EXPECT_TRUE(fs::exists(folder_ / "grid.vtr"));
     EXPECT_EQ(run("mesh grid --cells 3 3").code, 2);
     EXPECT_EQ(run("mesh grid --length 12").code, 2);

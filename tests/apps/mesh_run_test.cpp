@@ -8,6 +8,7 @@
 #include "apps/output/checkpoint.hpp"
 #include "apps/output/summary.hpp"
 #include "exchange/error.hpp"
+#include "tests/apps/example_case.hpp"
 #include "tests/apps/program.hpp"
 
 namespace hemoflux::apps {
@@ -77,12 +78,7 @@ pictures = false
 )";
 
 std::string refusal(const std::string& text, const std::vector<std::string>& sets) {
-    try {
-        static_cast<void>(parse_case(text, "case", "/", sets));
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
+    return message_of<InputError>([&] { static_cast<void>(parse_case(text, "case", "/", sets)); });
 }
 
 /// Runs on meshes.

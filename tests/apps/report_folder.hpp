@@ -20,6 +20,11 @@ namespace hemoflux::report {
 
 namespace fs = std::filesystem;
 
+/// Whether a text has this part.
+inline bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
 class ReportFolder : public ::testing::Test {
   protected:
     void SetUp() override {

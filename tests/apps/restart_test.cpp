@@ -8,6 +8,7 @@
 #include <random>
 #include <thread>
 
+#include "apps/output/history.hpp"
 #include "apps/output/pvd_series.hpp"
 #include "tests/apps/restarts.hpp"
 
@@ -69,6 +70,16 @@ TEST_F(Restart, OfTheFluidAlone) {
     ASSERT_EQ(outcome.code, 0) << outcome.text;
     expect_same_end("whole", "cut");
     EXPECT_EQ(content("whole/fluid.pvd"), content("cut/fluid.pvd"));
+}
+
+// Every look at the flow writes a checkpoint, so that the one which ends the run is the first after the restart.
+TEST_F(Restart, OfARunThatEndsInTheSteadyState) {
+    write("case.toml", fluid_case);
+    continue_bitwise(
+        "run case.toml --quiet --set time.strain=0.5 --set time.steady=1e-3 --set "
+        "output.checkpoint_interval_strain=0.005",
+        "");
+    EXPECT_LT(output::read_table(folder_ / "whole/history.csv").rows.back()[1], 0.4e-4);
 }
 
 TEST_F(Restart, OfAnotherCaseIsRefusedAndChangesNothing) {

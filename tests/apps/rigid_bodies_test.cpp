@@ -14,6 +14,7 @@
 #include "fluid/solver.hpp"
 #include "meshing/icosphere.hpp"
 #include "meshing/surface_io.hpp"
+#include "tests/apps/example_case.hpp"
 #include "tests/apps/program.hpp"
 
 namespace hemoflux::apps {
@@ -49,12 +50,7 @@ pictures = false
 )";
 
 std::string refusal(const std::vector<std::string>& sets) {
-    try {
-        static_cast<void>(parse_case(body_case, "case", "/", sets));
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
+    return message_of<InputError>([&] { static_cast<void>(parse_case(body_case, "case", "/", sets)); });
 }
 
 class RigidRun : public Program {

@@ -85,6 +85,7 @@ pictures = false
 order = ["error_relative"]
 [sweep.values]
 "grid.cells" = [[16, 16, 1], [32, 32, 1]]
+"grid.length" = [["10 um", "10 um", "1 um"], ["10 um", "10 um", "1 um"]]
 [[reference]]
 observable = "order_error_relative"
 low = 1.8
@@ -105,8 +106,11 @@ TEST_F(SweepRun, LeavesTableSummaryAndOrders) {
                 1e-9);
     EXPECT_TRUE(one.references.empty());
     const std::string table = content("out/sweep.csv");
-    EXPECT_TRUE(table.starts_with("grid.cells,cpu_s,error_density,error_largest,error_relative,")) << table;
-    EXPECT_NE(table.find("\"[32, 32, 1]\","), std::string::npos) << table;
+    EXPECT_TRUE(table.starts_with("grid.cells,grid.length,cpu_s,error_density,error_largest,error_relative,"))
+        << table;
+    EXPECT_NE(table.find("\n\"[32, 32, 1]\",\"[\"\"10 um\"\", \"\"10 um\"\", \"\"1 um\"\"]\","),
+              std::string::npos)
+        << table;
     EXPECT_TRUE(fs::exists(folder_ / "out/run_01/profile_u_along_y.csv"));
 
     // finished runs are taken over, and only those of the same case

@@ -17,8 +17,9 @@ std::vector<int> thread_counts();
 /// 0.
 void measure(benchmark::State& state, int threads, std::size_t items, const std::function<void()>& work);
 
-/// residual/<n>/<features>/<threads>, residual_single/<n>/<threads>, residual_unstructured/<n>/<threads>, residual_by_cell/<n>/<features>, residual_scalar/<n>/plain,
-/// ghost_fill/<n>/<threads>, factored_solve/<n>/<threads>. Items are cells.
+/// residual/<n>/<features>/<threads>, residual_single/<n>/<threads>, residual_unstructured/<n>/<threads>,
+/// residual_by_cell/<n>/<features>, residual_scalar/<n>/plain, ghost_fill/<n>/<threads>, factored_solve/<n>/<threads>.
+/// Items are cells.
 void add_fluid_benchmarks();
 /// membrane_forces/<nodes>/<threads>, membrane_batch/2562/<threads>/cells:<n>, membrane_law/2562/1/<law or bending
 /// scheme>. Items are nodes.

@@ -97,10 +97,14 @@ void add(const std::string& name, Function function, Choice choice) {
 }  // namespace
 
 void add_coupling_benchmarks() {
-    for (const char* kernel : {"phi2", "phi3", "phi4", "lagrange"}) {
-        add(fmt::format("stencil/{}", kernel), stencil, coupling::kernel_named(kernel));
-        add(fmt::format("spread/{}", kernel), spread, coupling::kernel_named(kernel));
-        add(fmt::format("interpolate/{}", kernel), interpolate, coupling::kernel_named(kernel));
+    using coupling::Kernel;
+    for (const auto& [name, kernel] : {std::pair{"phi2", Kernel::phi2},
+                                       {"phi3", Kernel::phi3},
+                                       {"phi4", Kernel::phi4},
+                                       {"lagrange", Kernel::lagrange}}) {
+        add(fmt::format("stencil/{}", name), stencil, kernel);
+        add(fmt::format("spread/{}", name), spread, kernel);
+        add(fmt::format("interpolate/{}", name), interpolate, kernel);
     }
     add("viscosity_recompute", viscosity, Recompute::always);
     add("viscosity_check", viscosity, Recompute::when_moved);

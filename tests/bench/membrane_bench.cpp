@@ -17,11 +17,10 @@ void membrane_forces(benchmark::State& state, int nodes, int threads, std::size_
                      const membrane::Parameters& parameters) {
     using namespace membrane;
     const int level = meshing::icosphere_level(nodes);
-    const double r0 = red_blood_cell::radius();
-    const meshing::SurfaceMesh sphere = meshing::icosphere(level, r0);
+    const meshing::SurfaceMesh sphere = meshing::icosphere(level, red_blood_cell::radius());
     const auto topology = std::make_shared<const Topology>(sphere);
-    const double equator = reference_spheroid_equator * r0, pole = reference_spheroid_pole * r0;
-    const meshing::SurfaceMesh rest = meshing::spheroid(sphere, equator, equator, pole);
+    const meshing::SurfaceMesh rest =
+        meshing::spheroid(sphere, meshing::oblate_axes(red_blood_cell::area, reference_reduced_volume));
     Batch batch(topology, parameters, reference_from_shape(*topology, rest.vertices), cells);
     const auto disc = meshing::evans_fung(sphere).vertices;
     for (std::size_t c = 0; c < cells; ++c) batch.set_positions(c, disc);

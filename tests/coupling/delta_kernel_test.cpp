@@ -4,7 +4,6 @@
 
 #include <random>
 
-#include "exchange/error.hpp"
 #include "grids.hpp"
 
 using namespace hemoflux;
@@ -158,12 +157,4 @@ TEST(DeltaKernel, ThinPeriodicAxis) {
             EXPECT_NEAR(sum, 1, 1e-14);
         }
     }
-}
-
-TEST(DeltaKernel, Names) {
-    EXPECT_EQ(kernel_named("phi2"), Kernel::phi2);
-    EXPECT_EQ(kernel_named("phi3"), Kernel::phi3);
-    EXPECT_EQ(kernel_named("phi4"), Kernel::phi4);
-    EXPECT_EQ(kernel_named("lagrange"), Kernel::lagrange);
-    EXPECT_THROW((void)kernel_named("cubic"), InputError);
 }

@@ -15,7 +15,7 @@ namespace hemoflux::coupling {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-/// What the drag of arrays makes right (see HeldBodies.DragOfArrays).
+/// What makes the drag of arrays right (see DragOfAnArrayOfCylinders).
 constexpr double retraction = 0.14;
 
 /// A body held in a periodic box of n x n x depth unit cells, through which a uniform force drives the fluid.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/surface_gap.hpp"
 #include "exchange/backend.hpp"
 #include "grids.hpp"
 #include "meshing/evans_fung.hpp"
@@ -18,22 +19,9 @@ namespace {
 
 const double pi = std::acos(-1.0);
 
-/// Closest point by regions (Ericson, Real-Time Collision Detection, 5.1.5): another algorithm than the
-/// product's.
+/// Closest point by regions: another algorithm than that of the band.
 double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    const Vec3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-    const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
-                 d6 = dot(ac, cp);
-    if (d1 <= 0 && d2 <= 0) return norm(ap);
-    if (d3 >= 0 && d4 <= d3) return norm(bp);
-    if (d6 >= 0 && d5 <= d6) return norm(cp);
-    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return norm(ap - (d1 / (d1 - d3)) * ab);
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return norm(ap - (d2 / (d2 - d6)) * ac);
-    if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-        return norm(bp - ((d4 - d3) / ((d4 - d3) + (d5 - d6))) * (c - b));
-    const double s = 1 / (va + vb + vc);
-    return norm(ap - (vb * s) * ab - (vc * s) * ac);
+    return norm(p - nearest_point(p, a, b, c));
 }
 
 /// Sum of the solid angles of all triangles over 4 pi: 1 inside, 0 outside (Van Oosterom and Strackee 1983).

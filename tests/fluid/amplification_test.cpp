@@ -85,6 +85,7 @@ struct Mode {
 }  // namespace
 
 TEST(Amplification, BoundariesOfTheRegion) {
+    constexpr double imaginary_limit_rk4 = 2.828;  // (2.37)
     // Where |G| = 1 on the axes, and that it is less just inside and more just outside.
     EXPECT_LT(std::abs(polynomial(-0.999 * real_limit_rk4)), 1);
     EXPECT_GT(std::abs(polynomial(-1.001 * real_limit_rk4)), 1);

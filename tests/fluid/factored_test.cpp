@@ -84,7 +84,7 @@ TEST(Factored, SolveInvertsTheProductOfTheFactors) {
 TEST(Factored, ShortPeriodicLines) {
     for (const std::size_t n : {1u, 2u, 3u}) {
         const std::vector<double> widths(n + 4, 0.5);
-        const HostLine line = factor_line(widths, 2, 0.8, 0.25, true, 1, 1);
+        const HostLine line = factor_line(line_operator(widths, 2, 0.8, 0.25, true, 1, 1));
         std::vector<double> x(n, 1.0);  // a constant is in the kernel of L
         double previous = 0;
         for (std::size_t i = 0; i < n; ++i)

@@ -1,6 +1,7 @@
 /// Flows with analytical solutions, and how far a solver is from them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -35,6 +36,16 @@ inline double relative_l2(const Solver& solver, int c, const std::function<doubl
         reference += e * e;
     }
     return std::sqrt(error / reference);
+}
+
+/// Largest difference of a velocity component in a cell between two flows on one grid.
+inline double largest_difference(const Solver& a, const Solver& b) {
+    double worst = 0;
+    for (int c = 1; c < 4; ++c) {
+        const auto u = a.values(c), v = b.values(c);
+        for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::abs(u[i] - v[i]));
+    }
+    return worst;
 }
 
 /// Taylor-Green vortex (3.15, second component with + sign) on a periodic square.

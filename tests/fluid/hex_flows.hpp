@@ -29,6 +29,14 @@ inline HexPatches by_name(const Patches& patches) {
     return all;
 }
 
+/// Walls at rest on all patches.
+inline HexPatches walls(const meshing::HexGrid& grid) {
+    HexPatches patches;
+    for (const auto& p : grid.patches) patches[p.name] = wall_patch();
+    return patches;
+}
+
+/// A box from the origin of n equal or distorted cells.
 inline meshing::HexGrid box_grid(const Vec3d& length, const std::array<int, 3>& n,
                                  const std::string& periodic, const meshing::BoxDistortion& distortion = {}) {
     return meshing::make_hex_grid(meshing::box_mesh(Vec3d{0, 0, 0}, length, n, distortion), pairs(periodic));

@@ -17,12 +17,6 @@ meshing::BoxDistortion random_distortion(double random) {
     return d;
 }
 
-HexPatches walls(const meshing::HexGrid& grid) {
-    HexPatches patches;
-    for (const auto& p : grid.patches) patches[p.name] = wall_patch();
-    return patches;
-}
-
 SolverOptions viscosity(double nu) {
     SolverOptions o;
     o.nu = nu;
@@ -73,7 +67,7 @@ TEST(HexSolver, StepsLikeTheRectilinearSolver) {
 
 TEST(HexSolver, ClosedDomainKeepsItsMass) {
     const meshing::HexGrid grid = test::box_grid({8, 8, 8}, {8, 8, 8}, "", random_distortion(0.3));
-    HexPatches patches = walls(grid);
+    HexPatches patches = test::walls(grid);
     patches["y+"] = velocity_patch([](const Vec3d& x) { return Vec3d{0.05 * std::sin(x.x), 0, 0.02}; });
     HexSolver solver(grid, patches, viscosity(0.2));
     solver.initialise([](const Vec3d& x) {
@@ -152,7 +146,7 @@ TEST(HexSolver, WallsCarryTheWeight) {
     const double force = -1e-4;
     const meshing::HexGrid grid = test::box_grid({4, 4, 4}, {4, 4, 4}, "xz");
     for (const bool hydrostatic : {false, true}) {
-        HexPatches patches = walls(grid);
+        HexPatches patches = test::walls(grid);
         if (hydrostatic)
             for (const char* wall : {"y-", "y+"}) {
                 patches[wall].density = DensityCondition::given_gradient;
@@ -288,24 +282,6 @@ TEST(HexSolver, TakesForceAndViscosityCellByCellAsTheRectilinearSolverDoes) {
     HexSolver plain(test::box_grid({3, 3, 3}, {3, 3, 3}, "xyz"), {}, viscosity(0.3));
     EXPECT_THROW(plain.set_viscosity(nu), std::logic_error);
     EXPECT_TRUE(plain.coefficient(3).empty());
-}
-
-TEST(HexBoundary, RefusesPatchesThatDoNotFit) {
-    const meshing::HexGrid grid = test::box_grid({3, 3, 3}, {3, 3, 3}, "xz");
-    HexPatches patches = walls(grid);
-    HexBoundary(grid, patches).check_mass_balance();
-    patches["lid"] = wall_patch();
-    EXPECT_THROW(HexBoundary(grid, patches), InputError);
-    patches = walls(grid);
-    patches.erase("y-");
-    EXPECT_THROW(HexBoundary(grid, patches), InputError);
-    patches["y-"] = periodic_patch();
-    EXPECT_THROW(HexBoundary(grid, patches), InputError);
-    patches["y-"] = velocity_patch([](const Vec3d&) { return Vec3d{0, 0.1, 0}; });
-    EXPECT_THROW(HexBoundary(grid, patches).check_mass_balance(), InputError);
-    EXPECT_NEAR(HexBoundary(grid, patches).net_mass_flux(), -0.9, 1e-14);
-    patches["y+"] = open_patch();
-    HexBoundary(grid, patches).check_mass_balance();
 }
 
 }  // namespace hemoflux::fluid

@@ -22,15 +22,6 @@ Solver cavity(double lid, double reynolds, double gamma, std::size_t n) {
     return Solver(grid, p, o);
 }
 
-double largest_difference(const Solver& a, const Solver& b) {
-    double worst = 0;
-    for (int c = 1; c < 4; ++c) {
-        const auto u = a.values(c), v = b.values(c);
-        for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::abs(u[i] - v[i]));
-    }
-    return worst;
-}
-
 std::vector<double> local_steps_of(const Solver& solver) {
     exchange::Buffer<double> dt(solver.cells());
     solver.read_local_steps(dt.data());
@@ -106,7 +97,7 @@ TEST(LocalStep, SteadyStateOfGlobalSteps) {
         std::printf("gamma %g: %d iterations with local steps, %d with one step\n", gamma, steps[0],
                     steps[1]);
         EXPECT_GT(local.largest_speed(), 0.4 * lid);
-        EXPECT_LT(largest_difference(local, global), 1e-8);
+        EXPECT_LT(test::largest_difference(local, global), 1e-8);
     }
 }
 

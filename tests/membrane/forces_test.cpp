@@ -40,8 +40,6 @@ Parameters only(const std::string& term) {
     return p;
 }
 
-double& component(Vec3d& r, int axis) { return axis == 0 ? r.x : axis == 1 ? r.y : r.z; }
-
 double largest(const std::vector<Vec3d>& forces) {
     double most = 0;
     for (const Vec3d& f : forces) most = std::max(most, norm(f));
@@ -61,7 +59,7 @@ TEST_P(ForceOfTerm, IsMinusTheGradientOfTheEnergy) {
     ASSERT_GT(scale, 1e-6);
     double worst = 0;
     auto moved = rest;
-    const auto energy_at = [&](std::size_t v, int axis, double shift) {
+    const auto energy_at = [&](std::size_t v, std::size_t axis, double shift) {
         moved[v] = rest[v];
         component(moved[v], axis) += shift;
         batch.set_positions(0, moved);
@@ -70,7 +68,7 @@ TEST_P(ForceOfTerm, IsMinusTheGradientOfTheEnergy) {
         return batch.energies(0).total();
     };
     for (std::size_t v = 0; v < rest.size(); ++v)
-        for (int axis = 0; axis < 3; ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
             const double near = energy_at(v, axis, h) - energy_at(v, axis, -h);
             const double far = energy_at(v, axis, 2 * h) - energy_at(v, axis, -2 * h);
             const double slope = (8 * near - far) / (12 * h);

@@ -36,13 +36,6 @@ TEST(Parameters, RefuseNegativeAndInfiniteModuli) {
     EXPECT_THROW(p.check(), InputError);
 }
 
-TEST(Reference, SpheroidHasTheAreaOfTheSphereAnd95PercentOfItsVolume) {
-    const meshing::SpheroidAxes axes{.equatorial = reference_spheroid_equator * red_blood_cell::radius(),
-                                     .polar = reference_spheroid_pole * red_blood_cell::radius()};
-    EXPECT_NEAR(meshing::area(axes) / red_blood_cell::area, 1, 1e-4);
-    EXPECT_NEAR(meshing::reduced_volume(axes), 0.95, 1e-4);
-}
-
 TEST(Reference, ReadsAreasLengthsAndCurvaturesOfAShape) {
     const auto topology = test::icosphere_topology(3);
     const auto sphere = meshing::icosphere(3, red_blood_cell::radius());

@@ -23,9 +23,8 @@ inline const bool one_thread = [] {
 
 /// Vertices of the spheroid that the discocyte takes its lengths and areas from.
 inline meshing::SurfaceMesh reference_spheroid(int level) {
-    const double r0 = red_blood_cell::radius();
-    const double a = reference_spheroid_equator * r0, c = reference_spheroid_pole * r0;
-    return meshing::spheroid(meshing::icosphere(level, r0), a, a, c);
+    return meshing::spheroid(meshing::icosphere(level, red_blood_cell::radius()),
+                             meshing::oblate_axes(red_blood_cell::area, reference_reduced_volume));
 }
 
 /// An Evans-Fung disc with every vertex moved at random by up to `amplitude` mean edges: a shape without any

@@ -31,6 +31,13 @@ struct Tweezers {
 constexpr Tweezers specified[] = {{0.4, 14.58, 5.19}, {0.61, 13.21, 5.44}};
 constexpr double tolerance = 0.05;
 
+/// Points 1 um apart on the x axis.
+std::vector<Vec3d> row_of(std::size_t points) {
+    std::vector<Vec3d> row;
+    for (std::size_t i = 0; i < points; ++i) row.push_back({static_cast<double>(i), 0, 0});
+    return row;
+}
+
 TEST(PulledVertices, AreTwoPercentAtEachEndAndTiesGoByIndex) {
     std::vector<Vec3d> rest(200, Vec3d{0, 0, 0});
     for (std::size_t v = 0; v < rest.size(); ++v) rest[v].x = v % 2 ? -1 : 1;
@@ -39,10 +46,16 @@ TEST(PulledVertices, AreTwoPercentAtEachEndAndTiesGoByIndex) {
     const PulledVertices pulled = pulled_vertices(rest);
     EXPECT_EQ(pulled.right, (std::vector<int>{0, 2, 4, 60}));
     EXPECT_EQ(pulled.left, (std::vector<int>{1, 3, 5, 7}));
-    EXPECT_EQ(pulled_vertices(std::vector<Vec3d>(642)).left.size(), 13u);
-    EXPECT_EQ(pulled_vertices(std::vector<Vec3d>(2562)).left.size(), 51u);
+    EXPECT_EQ(pulled_vertices(row_of(642)).left.size(), 13u);
+    EXPECT_EQ(pulled_vertices(row_of(2562)).left.size(), 51u);
     EXPECT_EQ(pulled_vertices({{1, 0, 0}, {-1, 0, 0}}).left, std::vector<int>{1});
+}
+
+TEST(PulledVertices, AreAtDifferentEnds) {
     EXPECT_THROW(pulled_vertices({{1, 0, 0}}), InputError);
+    EXPECT_THROW(pulled_vertices(std::vector<Vec3d>(10, Vec3d{1, 0, 0})), InputError);
+    EXPECT_THROW(pulled_vertices(row_of(10), {.fraction = 0.6}), InputError);
+    EXPECT_THROW(pulled_vertices(row_of(10), {.contact_diameter = 10}), InputError);
 }
 
 TEST(Stretch, Of642NodesAgreesWithTheSpecifiedDiameters) {

@@ -25,6 +25,20 @@ Graph path(const std::vector<std::uint32_t>& names) {
     return graph;
 }
 
+/// Largest difference of the numbers of two neighbours when numbered by `order`.
+std::size_t bandwidth(const Graph& graph, const std::vector<std::uint32_t>& order) {
+    std::vector<std::size_t> number(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) number[order[i]] = i;
+    std::size_t widest = 0;
+    for (std::uint32_t i = 0; i < graph.nodes(); ++i) {
+        for (std::uint32_t e = graph.first[i]; e < graph.first[i + 1]; ++e) {
+            const std::size_t a = number[i], b = number[graph.to[e]];
+            widest = std::max(widest, a > b ? a - b : b - a);
+        }
+    }
+    return widest;
+}
+
 TEST(CellOrder, PathIsNumberedFromEndToEnd) {
     const Graph graph = path({3, 0, 5, 1, 6, 2, 4});
     std::vector<std::uint32_t> order(7);

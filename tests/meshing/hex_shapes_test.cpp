@@ -146,8 +146,8 @@ TEST(HexCylinder, ScaleKeepsTheFamily) {
     shape.scale = 0.5;
     const HexMesh fine = cylinder_mesh(shape);
     EXPECT_EQ(fine.cells.size(), 4 * coarse.cells.size());
-    const std::size_t around = find_patch(coarse, "cylinder")->faces.size(),
-                      outward = coarse.cells.size() / around;
+    ASSERT_EQ(coarse.patches[0].name, "cylinder");
+    const std::size_t around = coarse.patches[0].faces.size(), outward = coarse.cells.size() / around;
     double worst = 0;
     for (std::size_t j = 0; j <= outward; ++j) {
         for (std::size_t i = 0; i < around; ++i) {

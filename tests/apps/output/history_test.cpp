@@ -37,32 +37,10 @@ TEST_F(HistoryTest, RowsAreOnDiskBeforeTheFileIsClosed) {
     EXPECT_EQ(content("history.csv"), "step,x\n0,1.5\n");
 }
 
-TEST_F(HistoryTest, ResumeDropsLaterRowsAndGivesTheFileOfAnUninterruptedRun) {
-    const auto row = [](int i) { return std::vector<double>{10.0 * i, std::sin(i)}; };
-    {
-        History whole(folder_ / "whole.csv", {"step", "x"});
-        for (int i = 0; i < 9; ++i) whole.add(row(i));
-        History broken(folder_ / "broken.csv", {"step", "x"});
-        for (int i = 0; i < 7; ++i) broken.add(row(i));
-    }
+TEST_F(HistoryTest, ARowThatWasNotFinishedIsLeftOut) {
+    { History(folder_ / "broken.csv", {"step", "x"}).add({10, 0.5}); }
     put("broken.csv", content("broken.csv") + "70,0.65");  // killed in the middle of a row
-    History resumed = History::resume(folder_ / "broken.csv", {"step", "x"}, 40);
-    EXPECT_EQ(read_table(folder_ / "broken.csv").rows.size(), 5u);
-    for (int i = 5; i < 9; ++i) resumed.add(row(i));
-    EXPECT_EQ(content("broken.csv"), content("whole.csv"));
-}
-
-TEST_F(HistoryTest, ResumeNamesTheColumnThatDiffers) {
-    { History(folder_ / "history.csv", {"step", "time_s", "x"}); }
-    try {
-        History::resume(folder_ / "history.csv", {"step", "strain", "x"}, 0);
-        FAIL() << "no error";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("time_s where this run writes strain"), std::string::npos)
-            << error.what();
-    }
-    EXPECT_THROW(History::resume(folder_ / "history.csv", {"step", "time_s"}, 0), InputError);
-    EXPECT_THROW(History::resume(folder_ / "none.csv", {"step"}, 0), FileError);
+    EXPECT_EQ(read_table(folder_ / "broken.csv").rows, (std::vector<std::vector<double>>{{10, 0.5}}));
 }
 
 TEST_F(HistoryTest, MalformedTablesNameTheirLine) {

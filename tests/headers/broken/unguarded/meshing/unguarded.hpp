@@ -1,4 +1,4 @@
 // A header that cannot be included twice.
 namespace hemoflux::meshing {
 struct Unguarded {};
-}
+}  // namespace hemoflux::meshing
