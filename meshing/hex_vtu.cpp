@@ -86,6 +86,7 @@ HexMesh sort_cells(vtkUnstructuredGrid* data) {
 
 HexMesh read_vtu(const std::string& file) {
     const std::string text = file_text(file);
+    const VtkSilence silence;  // of its compressors too
     check_vtk(text, "UnstructuredGrid");
     const vtkNew<vtkXMLUnstructuredGridReader> reader;
     read_xml(*reader.Get(), text);

@@ -6,8 +6,9 @@
 
 namespace hemoflux::meshing {
 
-/// FormatError naming the section and, of text files, the line, unless the nodes and elements of a file of MSH 2.2 or 4.1,
-/// text or binary, can be read from end to end and elements name nodes that exist.
+/// FormatError naming the section and, of text files, the line, unless every section of a file of MSH 2.2 or 4.1, text or
+/// binary, can be read from end to end as gmsh reads it and names nodes and entities that exist. Meshes in partitions and
+/// sections of results are not read.
 void check_msh(const std::string& text);
 
 }  // namespace hemoflux::meshing

@@ -16,6 +16,7 @@
 namespace hemoflux::meshing {
 
 SurfaceMesh parse_vtp(const std::string& text) {
+    const VtkSilence silence;  // of its compressors too
     check_vtk(text, "PolyData");
     const vtkNew<vtkXMLPolyDataReader> reader;
     read_xml(*reader.Get(), text);

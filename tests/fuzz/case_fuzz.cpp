@@ -5,6 +5,7 @@
 
 #include "apps/case.hpp"
 #include "exchange/error.hpp"
+#include "tests/fuzz/library_leaks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
