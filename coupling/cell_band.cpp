@@ -1,5 +1,5 @@
 // The band of fluid cells around the membranes on a rectilinear grid.
-#include "coupling/tile_scan.hpp"
+#include "coupling/surface_scan.hpp"
 #include "coupling/viscosity.hpp"
 #include "exchange/parallel.hpp"
 
@@ -38,22 +38,22 @@ struct AddMembrane {
 /// Viscosity of one tile: all membrane cells in turn.
 struct ViscosityTile {
     SurfacesView surfaces;
+    Tiles tiles;
     const double* nu_inside;
     double nu_outside, low, high, surface_nu;
     HalfWidth half_width;
     double* nu;
     HEMOFLUX_FN void operator()(std::size_t tile) const {
-        const TileRange r = surfaces.tiles.range(tile);
+        const TileRange r = tiles.range(tile);
         for (int k = r.k0; k < r.k1; ++k)
             for (int j = r.j0; j < r.j1; ++j)
                 for (int i = 0; i < surfaces.grid.axis[0].n; ++i)
                     nu[surfaces.grid.layout.at(i, j, k)] = nu_outside;
-        TileScan scan(surfaces, tile);
         for (std::size_t c = 0; c < surfaces.cells; ++c)
-            scan(c, AddCell{nu, nu_inside[c] - nu_outside, low, high});
+            band_cells(surfaces, r, c, AddCell{nu, nu_inside[c] - nu_outside, low, high});
         if (surface_nu > 0)  // after all of them, whose sum is limited
             for (std::size_t c = 0; c < surfaces.cells; ++c)
-                scan(c, AddMembrane{nu, surfaces.grid, surface_nu, half_width});
+                band_cells(surfaces, r, c, AddMembrane{nu, surfaces.grid, surface_nu, half_width});
     }
 };
 
@@ -62,12 +62,14 @@ class CellBand final : public MembraneBand {
     CellBand(const CellGrid& grid, const BandSurfaces& s, HalfWidth half_width)
         : distance_(grid, s.triangles, s.vertices, s.cells, half_width) {}
 
-    void prepare(const double* x, const double* y, const double* z) override { distance_.prepare(x, y, z); }
+    void prepare(const double* x, const double* y, const double* z, const std::vector<int>& moved) override {
+        distance_.prepare(x, y, z, moved);
+    }
     void viscosity(const BandViscosity& v, double* nu, std::size_t /*stride: one array*/) override {
         const SurfacesView surfaces = distance_.view();
-        exchange::for_each_index(surfaces.tiles.count(),
-                                 ViscosityTile{surfaces, v.nu_inside, v.nu_outside, v.low, v.high,
-                                               v.surface_nu, v.half_width, nu});
+        const Tiles tiles(surfaces.grid.layout);
+        exchange::for_each_index(tiles.count(), ViscosityTile{surfaces, tiles, v.nu_inside, v.nu_outside,
+                                                              v.low, v.high, v.surface_nu, v.half_width, nu});
     }
     [[nodiscard]] const BandTriangle* triangles() const override { return distance_.triangles(); }
     [[nodiscard]] const double* half_widths() const override { return distance_.half_widths(); }

@@ -131,6 +131,25 @@ struct Relieve {
     }
 };
 
+/// All passes over the triangles of one cell, one cell after the other: its gradients stay in the cache.
+struct RelieveCell {
+    TriangleTask gradients;
+    NodeTask sums;
+    RateTask rates;
+    Relieve relieve;
+    HEMOFLUX_FN void operator()(std::size_t cell) const {
+        const Surface& s = gradients.surface;
+        const std::size_t t0 = cell * s.triangles, t1 = t0 + s.triangles, n0 = cell * s.stride,
+                          n1 = n0 + s.stride;
+        for (std::size_t t = t0; t < t1; ++t) gradients(t);
+        for (std::size_t i = n0; i < n1; ++i) sums(i);
+        for (int pass = 0; pass < passes; ++pass) {
+            for (std::size_t t = t0; t < t1; ++t) rates(t);
+            for (std::size_t i = n0; i < n1; ++i) relieve(i);
+        }
+    }
+};
+
 /// The nodes that pad a cell go with its first one, on which they lie.
 struct MovePadding {
     std::size_t stride;
@@ -179,14 +198,22 @@ void ConstraintDamping::apply(const double* x, const double* y, const double* z,
                               const std::array<double*, 3>& u) {
     const Surface surface{triangles_, stride_, corners_.data(), ring_begin_.data(), ring_.data()};
     const std::size_t triangles = triangles_ * cells_, nodes = stride_ * cells_;
-    exchange::for_each_index(triangles, TriangleTask{surface, {x, y, z}, triangle_.data()});
-    exchange::for_each_index(nodes, NodeTask{surface, triangle_.data(), node_.data()});
-    for (int pass = 0; pass < passes; ++pass) {
-        exchange::for_each_index(triangles,
-                                 RateTask{surface, triangle_.data(), {u[0], u[1], u[2]}, rate_.data()});
-        exchange::for_each_index(
-            nodes,
-            Relieve{surface, triangle_.data(), node_.data(), rate_.data(), weight_, {u[0], u[1], u[2]}});
+    const RelieveCell cell{
+        {surface, {x, y, z}, triangle_.data()},
+        {surface, triangle_.data(), node_.data()},
+        {surface, triangle_.data(), {u[0], u[1], u[2]}, rate_.data()},
+        {surface, triangle_.data(), node_.data(), rate_.data(), weight_, {u[0], u[1], u[2]}}};
+    // not by the number of threads, on which results must not depend
+    constexpr std::size_t many = 16;
+    if (!exchange::on_gpu && cells_ >= many) {
+        exchange::for_each_index(cells_, cell);
+    } else {
+        exchange::for_each_index(triangles, cell.gradients);
+        exchange::for_each_index(nodes, cell.sums);
+        for (int pass = 0; pass < passes; ++pass) {
+            exchange::for_each_index(triangles, cell.rates);
+            exchange::for_each_index(nodes, cell.relieve);
+        }
     }
     scratch_->products.sum_segments(cells_, stride_, Products{stride_, node_.data(), {u[0], u[1], u[2]}},
                                     sums_.data());

@@ -103,7 +103,7 @@ class HexBand final : public MembraneBand {
         for (const Vec3d& r : cells.grid().nodes) include(low_, high_, r);
     }
 
-    void prepare(const double* x, const double* y, const double* z) override;
+    void prepare(const double* x, const double* y, const double* z, const std::vector<int>& moved) override;
     void viscosity(const BandViscosity& v, double* nu, std::size_t stride) override {
         const BandView band{image_.data(),  image_.size(),          start_.data(),
                             listed_.data(), band_triangles_.data(), lattice_};
@@ -186,7 +186,8 @@ void HexBand::add_columns(BandImage& image, const std::vector<BandTriangle>& tri
     host_start_.push_back(static_cast<std::uint32_t>(host_listed_.size()));
 }
 
-void HexBand::prepare(const double* x, const double* y, const double* z) {
+void HexBand::prepare(const double* x, const double* y, const double* z,
+                      const std::vector<int>& /*moved: the columns are those of all*/) {
     const double* from[3] = {x, y, z};
     std::vector<double> r[3];
     for (std::size_t q = 0; q < 3; ++q) {

@@ -35,8 +35,9 @@ class MembraneBand {
   public:
     virtual ~MembraneBand() = default;
 
-    /// Takes the surfaces as they are now: x, y, z (device, um) as in SignedDistance::prepare().
-    virtual void prepare(const double* x, const double* y, const double* z) = 0;
+    /// Takes the surfaces as they are now: x, y, z (device, um) and `moved` as in SignedDistance::prepare().
+    virtual void prepare(const double* x, const double* y, const double* z,
+                         const std::vector<int>& moved) = 0;
     /// Writes the viscosity of every fluid cell, value i at nu[stride * i].
     virtual void viscosity(const BandViscosity& v, double* nu, std::size_t stride) = 0;
     /// The triangles of all surfaces as prepared; device.

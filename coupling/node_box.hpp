@@ -18,10 +18,8 @@ struct NodeBox {
         double d[3] = {b.x - a.x, b.y - a.y, b.z - a.z};
         *itself = true;
         for (int q = 0; q < 3; ++q) {
-            if (!periodic[q]) continue;
-            const double turns = std::nearbyint(d[q] / length[q]);
-            if (turns == 0) continue;
-            d[q] -= turns * length[q];
+            if (!periodic[q] || !(std::fabs(d[q]) > 0.5 * length[q])) continue;
+            d[q] -= std::nearbyint(d[q] / length[q]) * length[q];
             *itself = false;
         }
         return {d[0], d[1], d[2]};

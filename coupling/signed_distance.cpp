@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "coupling/tile_scan.hpp"
+#include "coupling/surface_scan.hpp"
 #include "exchange/parallel.hpp"
 
 namespace hemoflux::coupling {
@@ -12,9 +12,12 @@ namespace {
 struct VertexHalfWidth {
     CellGridView grid;
     HalfWidth half_width;
+    std::size_t vertices;
+    const int* moved;
     const double* position[3];
     double* out;
     HEMOFLUX_FN void operator()(std::size_t v) const {
+        if (!moved[v / vertices]) return;
         double width = 0;
         for (int q = 0; q < 3; ++q) {
             const double w = grid.axis[q].width_at(position[q][v]);
@@ -29,7 +32,7 @@ struct PrepareGroup {
     CellGridView grid;
     std::size_t triangles, vertices, groups;
     double lattice;
-    const int* corners;
+    const int *corners, *moved;
     const double* position[3];
     const double* half_width;
     BandTriangle* triangle;
@@ -41,6 +44,7 @@ struct PrepareGroup {
 
     HEMOFLUX_FN void operator()(std::size_t i) const {
         const std::size_t c = i / groups, first = (i % groups) * triangle_group;
+        if (!moved[c]) return;
         const std::size_t last = first + triangle_group < triangles ? first + triangle_group : triangles;
         CellBox all;
         for (std::size_t t = first; t < last; ++t) {
@@ -62,25 +66,85 @@ struct PrepareGroup {
     }
 };
 
+/// The box around surface c, cut off at walls. A surface that reaches over more than two periods has come apart, and
+/// shall not ask for the memory.
+struct SurfaceBox {
+    CellGridView grid;
+    std::size_t groups;
+    const int* moved;
+    const CellBox* group_box;
+    CellBox* surface_box;
+    HEMOFLUX_FN void operator()(std::size_t c) const {
+        if (!moved[c]) return;
+        CellBox all = group_box[c * groups];
+        for (std::size_t g = 1; g < groups; ++g) {
+            const CellBox& b = group_box[c * groups + g];
+            for (int q = 0; q < 3; ++q) {
+                all.first[q] = smaller(all.first[q], b.first[q]);
+                all.last[q] = larger(all.last[q], b.last[q]);
+            }
+        }
+        for (int q = 0; q < 3; ++q) {
+            const AxisView& axis = grid.axis[q];
+            if (!axis.periodic) all.first[q] = larger(all.first[q], 0);
+            const int end = axis.periodic ? all.first[q] + 2 * axis.n : axis.n;
+            all.last[q] = larger(all.first[q], smaller(all.last[q], end));
+        }
+        surface_box[c] = all;
+    }
+};
+
+/// Centres of the cells of a row of the box around surface c; the padding repeats the last.
+struct RowCentres {
+    CellGridView grid;
+    const int* moved;
+    const CellBox* surface_box;
+    std::size_t row_capacity;
+    double* centre_x;
+    HEMOFLUX_FN void operator()(std::size_t c) const {
+        if (!moved[c]) return;
+        const CellBox& b = surface_box[c];
+        const AxisView& axis = grid.axis[0];
+        for (std::size_t i = 0; i < row_capacity; ++i) {
+            const int k = larger(smaller(b.first[0] + static_cast<int>(i), b.last[0] - 1), b.first[0]);
+            centre_x[c * row_capacity + i] = axis.centre[axis.cell(k)] + axis.turns(k) * axis.length;
+        }
+    }
+};
+
+/// Tile number i % tiles of the box around surface i / tiles.
+struct ScanTile {
+    SurfacesView surfaces;
+    const int* moved;
+    std::size_t tiles;
+    HEMOFLUX_FN void operator()(std::size_t i) const {
+        if (!moved[i / tiles]) return;
+        SurfaceScan scan(surfaces, i / tiles, static_cast<int>(i % tiles));
+        scan();
+    }
+};
+
 /// Writes d/h to a field.
 struct WriteDistance {
     double* field;
-    HEMOFLUX_INLINE void operator()(std::size_t at, double distance) const { field[at] = distance; }
+    HEMOFLUX_INLINE void operator()(std::size_t at, double distance) const {
+        if (distance > field[at]) field[at] = distance;
+    }
 };
 
-/// d/h of one surface in one tile.
+/// d/h of one surface in one tile of the grid.
 struct DistanceTile {
     SurfacesView surfaces;
+    Tiles tiles;
     std::size_t cell;
     double* field;
     HEMOFLUX_FN void operator()(std::size_t tile) const {
-        const TileRange r = surfaces.tiles.range(tile);
+        const TileRange r = tiles.range(tile);
         for (int k = r.k0; k < r.k1; ++k)
             for (int j = r.j0; j < r.j1; ++j)
                 for (int i = 0; i < surfaces.grid.axis[0].n; ++i)
                     field[surfaces.grid.layout.at(i, j, k)] = -1;
-        TileScan scan(surfaces, tile);
-        scan(cell, WriteDistance{field});
+        band_cells(surfaces, r, cell, WriteDistance{field});
     }
 };
 
@@ -103,24 +167,25 @@ SignedDistance::SignedDistance(const CellGrid& grid, const std::vector<std::arra
       half_width_(half_width),
       lattice_(inside_test_lattice(grid.smallest())),
       corners_(flat(triangles)),
+      moved_(cells),
       vertex_half_width_(cells * vertices),
       triangle_(cells * triangles.size()),
       box_(cells * triangles.size()),
       group_box_(cells * groups_of(triangles.size())),
-      ratio2_(grid.view().layout.size),
-      winding_(grid.view().layout.size) {}
+      surface_box_(cells) {}
 
 SurfacesView SignedDistance::view() {
-    const CellGridView grid = grid_.view();
-    return {
-        grid,        Tiles(grid.layout), cells_,   triangles_,     groups_of(triangles_), triangle_.data(),
-        box_.data(), group_box_.data(),  lattice_, ratio2_.data(), winding_.data()};
+    return {grid_.view(),        cells_,           triangles_,        groups_of(triangles_),
+            triangle_.data(),    box_.data(),      group_box_.data(), lattice_,
+            surface_box_.data(), centre_x_.data(), row_capacity_,     capacity_,
+            ratio_.data(),       winding_.data()};
 }
 
-void SignedDistance::prepare(const double* x, const double* y, const double* z) {
+void SignedDistance::prepare_triangles(const double* x, const double* y, const double* z) {
     const CellGridView grid = grid_.view();
-    exchange::for_each_index(cells_ * vertices_,
-                             VertexHalfWidth{grid, half_width_, {x, y, z}, vertex_half_width_.data()});
+    exchange::for_each_index(
+        cells_ * vertices_,
+        VertexHalfWidth{grid, half_width_, vertices_, moved_.data(), {x, y, z}, vertex_half_width_.data()});
     const std::size_t groups = groups_of(triangles_);
     exchange::for_each_index(cells_ * groups, PrepareGroup{grid,
                                                            triangles_,
@@ -128,16 +193,59 @@ void SignedDistance::prepare(const double* x, const double* y, const double* z) 
                                                            groups,
                                                            lattice_,
                                                            corners_.data(),
+                                                           moved_.data(),
                                                            {x, y, z},
                                                            vertex_half_width_.data(),
                                                            triangle_.data(),
                                                            box_.data(),
                                                            group_box_.data()});
+    exchange::for_each_index(cells_,
+                             SurfaceBox{grid, groups, moved_.data(), group_box_.data(), surface_box_.data()});
+}
+
+bool SignedDistance::make_room(const std::vector<CellBox>& boxes) {
+    std::size_t row = 0, values = 0;
+    for (const CellBox& b : boxes) {
+        const auto rows = static_cast<std::size_t>((b.last[1] - b.first[1]) * (b.last[2] - b.first[2]));
+        row = std::max(row, SurfacesView::row_length(b));
+        values = std::max(values, rows * SurfacesView::row_length(b));
+    }
+    if (row <= row_capacity_ && values <= capacity_) return true;
+    // a cell that turns or stretches needs more before long
+    row_capacity_ = std::max(row_capacity_, row + row / 4);
+    capacity_ = std::max(capacity_, values + values / 2);
+    centre_x_ = exchange::Buffer<double>(cells_ * row_capacity_);
+    ratio_ = exchange::Buffer<double>(cells_ * capacity_);
+    winding_ = exchange::Buffer<int>(cells_ * capacity_);
+    return false;
+}
+
+void SignedDistance::scan(const std::vector<CellBox>& boxes) {
+    std::size_t tiles = 0;
+    for (const CellBox& b : boxes) {
+        const auto across = [&](int q) {
+            return static_cast<std::size_t>((b.last[q] - b.first[q] + tile_rows - 1) / tile_rows);
+        };
+        tiles = std::max(tiles, across(1) * across(2));
+    }
+    exchange::for_each_index(cells_, RowCentres{grid_.view(), moved_.data(), surface_box_.data(),
+                                                row_capacity_, centre_x_.data()});
+    exchange::for_each_index(cells_ * tiles, ScanTile{view(), moved_.data(), tiles});
+}
+
+void SignedDistance::prepare(const double* x, const double* y, const double* z,
+                             const std::vector<int>& moved) {
+    moved_.assign(moved.empty() ? std::vector<int>(cells_, 1) : moved);
+    prepare_triangles(x, y, z);
+    const std::vector<CellBox> boxes = surface_box_.to_host();
+    if (!make_room(boxes)) moved_.fill(1);
+    scan(boxes);
 }
 
 void SignedDistance::evaluate(std::size_t cell, double* field) {
-    const SurfacesView surfaces = view();
-    exchange::for_each_index(surfaces.tiles.count(), DistanceTile{surfaces, cell, field});
+    const CellGridView grid = grid_.view();
+    const Tiles tiles(grid.layout);
+    exchange::for_each_index(tiles.count(), DistanceTile{view(), tiles, cell, field});
 }
 
 }  // namespace hemoflux::coupling

@@ -15,11 +15,12 @@ namespace {
 /// Unit normal of vertex v: the mean of the triangles around it, weighted by area.
 struct VertexNormal {
     const BandTriangle* triangle;
-    const int *ring_begin, *ring;
+    const int *ring_begin, *ring, *moved;
     std::size_t vertices, triangles;
     double* normal[3];
     HEMOFLUX_FN void operator()(std::size_t v) const {
         const std::size_t c = v / vertices;
+        if (!moved[c]) return;
         Vec3d sum{0, 0, 0};
         if (ring_begin[v % vertices] == ring_begin[v % vertices + 1]) {  // padding between two cells
             normal[0][v] = normal[1][v] = normal[2][v] = 0;
@@ -36,16 +37,30 @@ struct VertexNormal {
     }
 };
 
-/// Motion of vertex v since the last recomputation over what is allowed.
+/// Motion of a vertex of a cell since the cell was last measured, over what is allowed.
 struct MotionOverLimit {
     const double *now[3], *then[3], *normal[3], *half_width;
     MotionLimits limits;
-    HEMOFLUX_FN exchange::Maximum operator()(std::size_t v) const {
+    std::size_t vertices;
+    HEMOFLUX_FN exchange::Maximum operator()(std::size_t cell, std::size_t vertex) const {
+        const std::size_t v = cell * vertices + vertex;
         const Vec3d d{now[0][v] - then[0][v], now[1][v] - then[1][v], now[2][v] - then[2][v]};
         const double along = std::fabs(d.x * normal[0][v] + d.y * normal[1][v] + d.z * normal[2][v]);
         const double h = half_width[v];
         const double a = along / (limits.normal * h), b = norm(d) / (limits.total * h);
         return {a > b ? a : b};
+    }
+};
+
+/// Takes over the positions of the cells that moved.
+struct TakePositions {
+    const double* now[3];
+    const int* moved;
+    std::size_t vertices;
+    double* then[3];
+    HEMOFLUX_FN void operator()(std::size_t v) const {
+        if (!moved[v / vertices]) return;
+        for (int q = 0; q < 3; ++q) then[q][v] = now[q][v];
     }
 };
 
@@ -58,7 +73,8 @@ void check(double nu, const char* where) {
 }  // namespace
 
 struct InteriorViscosity::Motion {
-    exchange::Reduction<exchange::Maximum> largest;
+    exchange::Reduction<exchange::Maximum> reduction;
+    exchange::Buffer<exchange::Maximum> largest;
 };
 
 InteriorViscosity::InteriorViscosity(const FluidGrid& grid, const std::vector<std::array<int, 3>>& triangles,
@@ -73,7 +89,9 @@ InteriorViscosity::InteriorViscosity(const FluidGrid& grid, const std::vector<st
       vertices_(vertices),
       triangles_(triangles.size()),
       nu_inside_(nu_inside),
+      moved_(nu_inside.size()),
       motion_(std::make_unique<Motion>()) {
+    motion_->largest = exchange::Buffer<exchange::Maximum>(nu_inside.size());
     check(nu_outside, "outside the cells");
     if (!(surface_nu >= 0))
         throw InputError("surface viscosity of " + std::to_string(surface_nu), "it must not be negative",
@@ -97,29 +115,45 @@ InteriorViscosity::~InteriorViscosity() = default;
 
 bool InteriorViscosity::update(const double* x, const double* y, const double* z, double* nu,
                                std::size_t stride) {
-    if (recomputations_ > 0) {
-        const MotionOverLimit motion{{x, y, z},
-                                     {position_[0].data(), position_[1].data(), position_[2].data()},
-                                     {normal_[0].data(), normal_[1].data(), normal_[2].data()},
-                                     band_->half_widths(),
-                                     limits_};
-        if (motion_->largest.sum(position_[0].size(), motion).value <= 1) return false;
+    if (recomputations_ == 0) {
+        recompute(x, y, z, nu, stride);
+        return true;
     }
-    recompute(x, y, z, nu, stride);
+    const MotionOverLimit motion{{x, y, z},
+                                 {position_[0].data(), position_[1].data(), position_[2].data()},
+                                 {normal_[0].data(), normal_[1].data(), normal_[2].data()},
+                                 band_->half_widths(),
+                                 limits_,
+                                 vertices_};
+    motion_->reduction.sum_segments(nu_inside_.size(), vertices_, motion, motion_->largest.data());
+    std::vector<int> moved;
+    for (const exchange::Maximum& largest : motion_->largest.to_host())
+        moved.push_back(!(largest.value <= 1));
+    if (std::find(moved.begin(), moved.end(), 1) == moved.end()) return false;
+    recompute_moved(moved, x, y, z, nu, stride);
     return true;
 }
 
 void InteriorViscosity::recompute(const double* x, const double* y, const double* z, double* nu,
                                   std::size_t stride) {
-    band_->prepare(x, y, z);
+    recompute_moved(std::vector<int>(nu_inside_.size(), 1), x, y, z, nu, stride);
+}
+
+void InteriorViscosity::recompute_moved(const std::vector<int>& moved, const double* x, const double* y,
+                                        const double* z, double* nu, std::size_t stride) {
+    moved_.assign(moved);
+    exchange::for_each_index(position_[0].size(),
+                             TakePositions{{x, y, z},
+                                           moved_.data(),
+                                           vertices_,
+                                           {position_[0].data(), position_[1].data(), position_[2].data()}});
+    band_->prepare(position_[0].data(), position_[1].data(), position_[2].data(), moved);
     band_->viscosity({nu_inside_.data(), nu_outside_, low_, high_, surface_nu_, half_width_}, nu, stride);
-    const double* from[3] = {x, y, z};
-    for (int q = 0; q < 3; ++q)
-        exchange::copy_on_device(position_[q].data(), from[q], position_[q].size() * sizeof(double));
     exchange::for_each_index(position_[0].size(),
                              VertexNormal{band_->triangles(),
                                           ring_begin_.data(),
                                           ring_.data(),
+                                          moved_.data(),
                                           vertices_,
                                           triangles_,
                                           {normal_[0].data(), normal_[1].data(), normal_[2].data()}});

@@ -11,10 +11,10 @@
 ///
 ///   delta(d) = dH/dd = [1 + cos(pi d/h)] / (2 h),  h as in (6.46): local_cells times the cell's largest width
 ///
-/// The field is recomputed only when a membrane has moved noticeably since it was last computed: a node by more than
-/// `normal` half-widths along its normal, or by more than `total` half-widths in any direction (a membrane that slides
-/// along itself, as in tank treading, encloses the same cells). d is then off by no more than about
-/// (normal + total^2 h kappa / 2) h, kappa the curvature of the membrane.
+/// d to a membrane is measured again only when the membrane has moved noticeably since it was last measured: a node by
+/// more than `normal` half-widths along its normal, or by more than `total` half-widths in any direction (a membrane
+/// that slides along itself, as in tank treading, encloses the same cells). d is then off by no more than about
+/// (normal + total^2 h kappa / 2) h, kappa the curvature of the membrane. Each membrane has its own turn.
 #pragma once
 
 #include <array>
@@ -60,21 +60,24 @@ class InteriorViscosity {
                       HalfWidth half_width = {}, MotionLimits limits = {}, double surface_nu = 0);
     ~InteriorViscosity();
 
-    /// Recomputes the viscosity of the fluid's cells, value i at nu[stride * i] (device), if a node of x, y, z (device,
-    /// um, cell-major) has passed a limit since the last time, and says whether it did. The first call always
-    /// does. Ghost cells are left to the fluid solver.
+    /// Recomputes the viscosity of the fluid's cells, value i at nu[stride * i] (device), with the membranes of which a
+    /// node of x, y, z (device, um, cell-major) has passed a limit, and says whether there was one. The first call
+    /// takes all. Ghost cells are left to the fluid solver.
     bool update(const double* x, const double* y, const double* z, double* nu, std::size_t stride = 1);
-    /// Recomputes whether needed or not. For a restart: with the positions() of the checkpoint, so that field
-    /// and later decisions are those of the uninterrupted run.
+    /// Recomputes with all membranes, moved or not. For a restart: with the positions() of the checkpoint, so that
+    /// field and later decisions are those of the uninterrupted run.
     void recompute(const double* x, const double* y, const double* z, double* nu, std::size_t stride = 1);
-    /// Node positions (x, y, z; host, um) of the last recomputation, the state that a checkpoint must hold;
-    /// empty before the first.
+    /// Node positions (x, y, z; host, um) with which each membrane was last measured, the state that a checkpoint must
+    /// hold; empty before the first time.
     [[nodiscard]] std::array<std::vector<double>, 3> positions() const;
     /// Number of recomputations so far.
     [[nodiscard]] std::size_t recomputations() const { return recomputations_; }
 
   private:
     struct Motion;
+    /// Recomputes with the membranes that are marked, and the others as they were.
+    void recompute_moved(const std::vector<int>& moved, const double* x, const double* y, const double* z,
+                         double* nu, std::size_t stride);
 
     std::unique_ptr<MembraneBand> band_;
     double nu_outside_, low_, high_, surface_nu_;
@@ -84,7 +87,9 @@ class InteriorViscosity {
     /// Triangles around each vertex: vertex v has ring_[ring_begin_[v]] .. ring_[ring_begin_[v + 1] - 1].
     exchange::Buffer<int> ring_begin_, ring_;
     exchange::Buffer<double> nu_inside_;
-    /// Positions and unit normals at the last recomputation.
+    /// Membranes that the recomputation takes anew.
+    exchange::Buffer<int> moved_;
+    /// Positions and unit normals with which each membrane was last measured.
     exchange::Buffer<double> position_[3], normal_[3];
     std::unique_ptr<Motion> motion_;
 };

@@ -154,15 +154,18 @@ TEST(ConstraintDamping, VanishesWithItsStrength) {
 
 TEST(ConstraintDamping, EveryCellAloneAndAnyNumberOfThreads) {
     const Moving m(disc(), noise());
-    std::vector<Moving> results;
+    std::vector<Moving> results, of_many;
     for (const int threads : {1, 2, 3}) {
         exchange::set_threads(threads);
         results.push_back(m.damped(1));
         results.push_back(m.damped(1, 3, 0));
+        of_many.push_back(m.damped(1, 20, 13));  // taken one by one
     }
     exchange::set_threads(0);
     for (const Moving& r : results) EXPECT_EQ(r.distance(results.front()), 0);
+    for (const Moving& r : of_many) EXPECT_EQ(r.distance(of_many.front()), 0);
     EXPECT_LT(m.damped(1, 3, 2).distance(results.front()), 1e-9 * m.size());
+    EXPECT_LT(of_many.front().distance(results.front()), 1e-9 * m.size());
 }
 
 }  // namespace hemoflux::coupling

@@ -222,6 +222,36 @@ TEST(Viscosity, RestartIsBitwise) {
     EXPECT_EQ(nu.to_host(), nu_restarted.to_host());
 }
 
+// Of three cells the slow one is measured seldom, and the field is always that of the positions last measured, also when
+// the fast one grows out of the room it had.
+TEST(Viscosity, EveryMembraneHasItsOwnTurn) {
+    const auto axis = meshing::uniform_axis(-6, 6, 32);
+    const CellGrid cells({{axis, axis, axis}}, {true, true, true});
+    const auto mesh = meshing::icosphere(2, 1.5);
+    const std::size_t n = mesh.vertices.size();
+    const std::vector<double> nu_inside{5.0, 0.5, 2.0};
+    InteriorViscosity viscosity(cells, mesh.triangles, n, nu_inside, 1.0);
+    exchange::Buffer<double> nu(cells.view().layout.size), expected(cells.view().layout.size);
+    std::size_t alone = 0;
+    for (int step = 0; step < 30; ++step) {
+        auto points = copies(mesh, {{-3, 0, 0}, {0.002 * step, 0.1, 4}, {3 + 0.1 * step, 3, -5}});
+        for (std::size_t v = 2 * n; v < 3 * n; ++v) points[v].y += 0.03 * step * (points[v].y - 3);
+        const test::Points p(points);
+        const auto before = viscosity.positions();
+        EXPECT_TRUE(viscosity.update(p[0], p[1], p[2], nu.data())) << step;
+        const auto measured = viscosity.positions();
+        EXPECT_EQ(measured[0][0], mesh.vertices[0].x - 3);
+        EXPECT_EQ(measured[1][2 * n], points[2 * n].y) << step;
+        if (step > 0 && measured[0][n] == before[0][n]) ++alone;
+        InteriorViscosity fresh(cells, mesh.triangles, n, nu_inside, 1.0);
+        const exchange::Buffer<double> x(measured[0]), y(measured[1]), z(measured[2]);
+        fresh.recompute(x.data(), y.data(), z.data(), expected.data());
+        ASSERT_EQ(nu.to_host(), expected.to_host()) << step;
+    }
+    EXPECT_GT(alone, 20u);
+    EXPECT_LT(alone, 29u);
+}
+
 TEST(Viscosity, IsBitwiseTheSameForAnyNumberOfThreads) {
     const CellGrid cells(test::tank_treading_grid(), {true, true, true});
     const auto mesh = meshing::evans_fung(meshing::icosphere(2, 1.0));
