@@ -32,6 +32,11 @@ const char* name_of(fluid::Scheme scheme) {
 
 }  // namespace
 
+double surface_viscosity_in_fluid(const Case& c, const coupling::Numerics& n) {
+    if (c.coupling.membrane_viscosity != MembraneViscosityForm::fluid) return 0;
+    return n.nu * c.cells.front().membrane_viscosity / (c.fluid.viscosity * metre_per_um);
+}
+
 fluid::Scheme coupled_scheme(const Case& c) {
     // forces hold for a step, so an explicit step is Euler's, at a quarter of the cost of RK4
     if (c.mesh && c.time.scheme == TimeScheme::factored) return fluid::Scheme::euler;

@@ -61,6 +61,9 @@ class CoupledSystem {
 /// shear flow about y = 0 is fastest; um.
 coupling::Numerics numerics_of(const Case& c, double smallest, double sheared);
 
+/// Membrane viscosity that the fluid carries, um^2 c.
+double surface_viscosity_in_fluid(const Case& c, const coupling::Numerics& n);
+
 /// The scheme of a coupled case: the one it names, but on a mesh Euler's in place of the factored one.
 fluid::Scheme coupled_scheme(const Case& c);
 

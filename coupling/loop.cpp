@@ -64,11 +64,9 @@ Loop::Loop(fluid::HexSolver& fluid, membrane::Batch& cells, const LoopOptions& o
 void Loop::add_cells(membrane::Batch& cells, const LoopOptions& o, double nu) {
     exchange::FieldView viscosity;
     if (!o.nu_inside.empty()) viscosity = fields_.read("fluid.viscosity", Shape::scalar, "um c");
-    cells_ = std::make_unique<ImmersedCells>(
-        *grid_, cells,
-        CellOptions{o.force_factor, o.nu_inside, nu, o.smoothing, o.recentre, o.contact, o.pull, o.surface_nu,
-                    o.membrane_time, o.maxwell_stiffness, o.constraint_damping, o.damped_step},
-        viscosity);
+    CellOptions of_cells = o;
+    of_cells.nu_outside = nu;
+    cells_ = std::make_unique<ImmersedCells>(*grid_, cells, of_cells, viscosity);
     add(*cells_);
 }
 

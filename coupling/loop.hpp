@@ -21,26 +21,9 @@
 
 namespace hemoflux::coupling {
 
-/// Choices of a coupled run that do not change during it.
-struct LoopOptions {
+/// Choices of a coupled run that do not change during it. nu_outside is that of the fluid, whatever is given.
+struct LoopOptions : CellOptions {
     Kernel kernel = Kernel::lagrange;
-    double force_factor = 1;        ///< membrane force (1e-11 N) -> lattice force
-    std::vector<double> nu_inside;  ///< one per cell, um c; empty: as outside, no viscosity field
-    HalfWidth smoothing{};          ///< of the viscosity step
-    bool recentre = false;          ///< hold the volume centroid of all cells where it is at the start
-    std::optional<ContactOptions> contact;  ///< forces between cells, and from walls
-    std::vector<double> pull =
-        {};  ///< constant force along x on every node of the batch, 1e-11 N; empty: none
-    /// Membrane viscosity as the fluid's, raised in cells that a membrane crosses: surface viscosity over density,
-    /// um^2 c; 0: none. Needs nu_inside.
-    double surface_nu = 0;
-    /// Membrane viscosity as the membrane's own (Maxwell elements along its springs): what a lattice time (um/c) is in
-    /// 1e-5 s; 0: none.
-    double membrane_time = 0;
-    double maxwell_stiffness = membrane::maxwell_stiffness;  ///< k' of those elements, 1e-5 N/m
-    double constraint_damping =
-        0;                   ///< strength, for steps beyond the explicit limit of the membrane; 0: none
-    double damped_step = 0;  ///< the step (um/c) that this strength is of; 0: all steps are alike
 };
 
 /// Forces of all nodes on the fluid in lattice units: their sum and the sum of their magnitudes.
