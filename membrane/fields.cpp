@@ -95,8 +95,9 @@ TriangleFields triangle_fields(const Batch& batch, std::size_t cell) {
             now[i] = lengths[e];
             rest[i] = reference.edge_lengths[e];
             const Vec3d d = positions[index(corner[(i + 2) % 3])] - positions[index(corner[(i + 1) % 3])];
-            const double c = dot(d, x) / (norm(d) * norm(x)), s2 = std::max(0.0, 1 - c * c);
-            const double s = i == 2 ? -std::sqrt(s2) : std::sqrt(s2);
+            // both from products: sqrt(1 - c^2) would leave half the digits along the first edge
+            const double lengths2 = norm(d) * norm(x), c = dot(d, x) / lengths2;
+            const double s = (i == 2 ? -1 : 1) * norm(cross(x, d)) / lengths2;
             const double share = 0.5 * pulls[e] * lengths[e] / areas[k];
             trace += share;
             difference_x += share * (c * c - s * s);
