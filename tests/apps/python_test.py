@@ -178,6 +178,8 @@ class Coupled(unittest.TestCase):
 
         with self.assertRaises(KeyError):
             hf.run(self.case, self.folder / "failed", progress=fail)
+        # a shell starts what runs in its background with SIGINT ignored, and then Python installs no handler
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         with self.assertRaises(KeyboardInterrupt):
             hf.run(self.case, self.folder / "interrupted", progress=interrupt)
         self.assertGreater(hf.Simulation.from_folder(self.folder / "interrupted").steps, 0)
