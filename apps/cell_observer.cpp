@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "coupling/cell_motion.hpp"
 #include "membrane/diagnostics.hpp"
@@ -59,10 +60,7 @@ CellObserver::CellObserver(const membrane::Batch& cells) : cells_(cells.cells())
         volume0_.push_back(m.volume);
         area0_.push_back(m.area);
         start_.insert(start_.end(), {m.centroid.x, m.centroid.y, m.centroid.z});
-        const auto farthest = std::max_element(positions.begin(), positions.end(),
-                                               [](const Vec3d& a, const Vec3d& b) { return a.x < b.x; });
-        marked_.push_back(static_cast<double>(farthest - positions.begin()));
-        turned_[c] = membrane::tank_treading_angle(*farthest, m.centroid);
+        for (const Vec3d& p : positions) labels_.push_back(membrane::angle_about(p, m.centroid));
     }
 }
 
@@ -80,8 +78,8 @@ std::vector<double> CellObserver::observe(membrane::Batch& cells, double strain)
                      of_extent = membrane::taylor_deformation_extent(positions, m.centroid);
         const double index = 100 * membrane::minimum_rectangle(positions).deformation_index(),
                      ellipse = 100 * membrane::shadow_ellipse(positions).deformation_index();
-        const double angle =
-            membrane::tank_treading_angle(positions[static_cast<std::size_t>(marked_[c])], m.centroid);
+        const std::span<const double> labels(labels_.data() + c * positions.size(), positions.size());
+        const double angle = membrane::membrane_turn(positions, labels, m.centroid, inclination / degrees);
         turned_[c] += std::remainder(angle - turned_[c], 2 * pi);
         const double area_error = m.area / area0_[c] - 1, volume_error = m.volume / volume0_[c] - 1;
         row.insert(row.end(), {m.centroid.x, m.centroid.y, m.centroid.z, inclination, turned_[c] * degrees,
@@ -164,7 +162,7 @@ void CellObserver::save(output::Checkpoint& checkpoint) const {
     checkpoint.put("observer.volume0", volume0_);
     checkpoint.put("observer.area0", area0_);
     checkpoint.put("observer.start", start_);
-    checkpoint.put("observer.marked", marked_);
+    checkpoint.put("observer.labels", labels_);
     checkpoint.put("observer.turned", turned_);
     checkpoint.put("observer.worst", {volume_error_, area_error_, centroid_distance_});
     checkpoint.put("observer.strain", strain_);
@@ -181,7 +179,7 @@ void CellObserver::load(const output::Checkpoint& checkpoint) {
     volume0_ = checkpoint.array("observer.volume0", cells_);
     area0_ = checkpoint.array("observer.area0", cells_);
     start_ = checkpoint.array("observer.start", 3 * cells_);
-    marked_ = checkpoint.array("observer.marked", cells_);
+    labels_ = checkpoint.array("observer.labels", labels_.size());
     turned_ = checkpoint.array("observer.turned", cells_);
     const auto& worst = checkpoint.array("observer.worst", 3);
     volume_error_ = worst[0], area_error_ = worst[1], centroid_distance_ = worst[2];

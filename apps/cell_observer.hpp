@@ -18,8 +18,8 @@ const std::vector<std::string>& cell_columns();
 /// Follows the cells of a batch.
 class CellObserver {
   public:
-    /// Takes volume, area and centroid of every cell now as those at t = 0, and its vertex farthest in x as
-    /// the material point of the tank-treading angle.
+    /// Takes volume, area and centroid of every cell now as those at t = 0, and the angles of its vertices as those that
+    /// tell how far its membrane has turned (membrane_turn).
     explicit CellObserver(const membrane::Batch& cells);
 
     /// Values of cell_columns() for every cell in turn, as the cells are now (forces are computed for the
@@ -58,8 +58,9 @@ class CellObserver {
 
   private:
     std::size_t cells_;
-    std::vector<double> volume0_, area0_, start_, marked_;  // marked_: vertex numbers
-    std::vector<double> turned_;                            // unwrapped tank-treading angle, rad
+    std::vector<double> volume0_, area0_, start_;
+    std::vector<double> labels_;  // of the vertices of all cells, rad
+    std::vector<double> turned_;  // unwrapped membrane_turn, rad
     membrane::Diameters last_;
     double volume_error_ = 0, area_error_ = 0, centroid_distance_ = 0;
     // per record, cells side by side

@@ -16,8 +16,12 @@ constexpr double parallel = 1e-6;
 struct Surface {
     std::size_t triangles, stride;
     const int *corners, *ring_begin, *ring;
+    /// Of a triangle counted through all cells.
     HEMOFLUX_INLINE std::size_t node(std::size_t triangle, int corner) const {
-        const std::size_t cell = triangle / triangles, t = triangle % triangles;
+        return node(triangle / triangles, triangle % triangles, corner);
+    }
+    /// Of triangle t of a cell.
+    HEMOFLUX_INLINE std::size_t node(std::size_t cell, std::size_t t, int corner) const {
         return cell * stride + static_cast<std::size_t>(corners[3 * t + static_cast<std::size_t>(corner)]);
     }
 };
@@ -29,8 +33,11 @@ struct TriangleTask {
     const double* x[3];
     TriangleGradient* out;
     HEMOFLUX_FN void operator()(std::size_t t) const {
-        const Vec3d a = at(x, surface.node(t, 0)), b = at(x, surface.node(t, 1)),
-                    c = at(x, surface.node(t, 2));
+        gradients(t, surface.node(t, 0), surface.node(t, 1), surface.node(t, 2));
+    }
+    /// Of triangle t, counted through all cells, with its corners.
+    HEMOFLUX_INLINE void gradients(std::size_t t, std::size_t i, std::size_t j, std::size_t k) const {
+        const Vec3d a = at(x, i), b = at(x, j), c = at(x, k);
         const Vec3d normal2 = cross(b - a, c - a);
         const double size = norm(normal2), half = 0.5 / size;
         out[t] = {{half * cross(normal2, c - b), half * cross(normal2, a - c), half * cross(normal2, b - a)},
@@ -131,22 +138,65 @@ struct Relieve {
     }
 };
 
-/// All passes over the triangles of one cell, one cell after the other: its gradients stay in the cache.
+/// All passes over one cell, one cell after the other: its gradients stay in the cache, and as no other thread writes to
+/// its nodes, triangles add to them instead of nodes gathering from triangles.
 struct RelieveCell {
-    TriangleTask gradients;
-    NodeTask sums;
-    RateTask rates;
-    Relieve relieve;
+    TriangleTask task;
+    NodeGradient* node;
+    Vec3d* pull;  ///< work, a value a node
+    double weight;
+    double* u[3];
+
     HEMOFLUX_FN void operator()(std::size_t cell) const {
-        const Surface& s = gradients.surface;
-        const std::size_t t0 = cell * s.triangles, t1 = t0 + s.triangles, n0 = cell * s.stride,
-                          n1 = n0 + s.stride;
-        for (std::size_t t = t0; t < t1; ++t) gradients(t);
-        for (std::size_t i = n0; i < n1; ++i) sums(i);
-        for (int pass = 0; pass < passes; ++pass) {
-            for (std::size_t t = t0; t < t1; ++t) rates(t);
-            for (std::size_t i = n0; i < n1; ++i) relieve(i);
+        const Surface& s = task.surface;
+        const std::size_t n0 = cell * s.stride, n1 = n0 + s.stride;
+        for (std::size_t i = n0; i < n1; ++i) node[i] = {{0, 0, 0}, {0, 0, 0}, 0};
+        for (std::size_t t = 0; t < s.triangles; ++t) add_gradients(cell, t);
+        for (std::size_t i = n0; i < n1; ++i) {
+            node[i].volume = (1.0 / 6) * node[i].volume;
+            node[i].inverse_scale = node[i].inverse_scale > 0 ? 1 / node[i].inverse_scale : 0.0;
         }
+        for (int pass = 0; pass < passes; ++pass) {
+            for (std::size_t i = n0; i < n1; ++i) pull[i] = {0, 0, 0};
+            for (std::size_t t = 0; t < s.triangles; ++t) add_pull(cell, t);
+            for (std::size_t i = n0; i < n1; ++i) follow(i);
+        }
+    }
+
+  private:
+    struct Corners {
+        std::size_t of[3];
+    };
+    HEMOFLUX_INLINE Corners corners(std::size_t cell, std::size_t t) const {
+        const Surface& s = task.surface;
+        return {{s.node(cell, t, 0), s.node(cell, t, 1), s.node(cell, t, 2)}};
+    }
+    /// Until all triangles have added theirs, inverse_scale is d_i.
+    HEMOFLUX_INLINE void add_gradients(std::size_t cell, std::size_t t) const {
+        const Corners corner = corners(cell, t);
+        const std::size_t number = cell * task.surface.triangles + t;
+        task.gradients(number, corner.of[0], corner.of[1], corner.of[2]);
+        const TriangleGradient& g = task.out[number];
+        for (int c = 0; c < 3; ++c) {
+            NodeGradient& n = node[corner.of[c]];
+            n.volume += g.normal2;
+            n.area += g.area[c];
+            n.inverse_scale += dot(g.area[c], g.area[c]) * g.inverse_area;
+        }
+    }
+    HEMOFLUX_INLINE void add_pull(std::size_t cell, std::size_t t) const {
+        const Corners corner = corners(cell, t);
+        const TriangleGradient& g = task.out[cell * task.surface.triangles + t];
+        double rate = 0;
+        for (int c = 0; c < 3; ++c) rate += dot(g.area[c], at(u, corner.of[c]));
+        rate *= g.inverse_area;
+        for (int c = 0; c < 3; ++c) pull[corner.of[c]] += rate * g.area[c];
+    }
+    HEMOFLUX_INLINE void follow(std::size_t i) const {
+        const Vec3d change = weight * node[i].inverse_scale * pull[i];
+        u[0][i] -= change.x;
+        u[1][i] -= change.y;
+        u[2][i] -= change.z;
     }
 };
 
@@ -175,7 +225,8 @@ ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& tria
       cells_(cells),
       triangle_(triangles.size() * cells),
       node_(stride * cells),
-      rate_(triangles.size() * cells),
+      rate_(taken_one_by_one() ? 0 : triangles.size() * cells),
+      pull_(taken_one_by_one() ? stride * cells : 0),
       sums_(cells),
       scratch_(std::make_unique<Scratch>()) {
     set_strength(strength);
@@ -189,6 +240,11 @@ ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& tria
 
 ConstraintDamping::~ConstraintDamping() = default;
 
+bool ConstraintDamping::taken_one_by_one() const {
+    constexpr std::size_t many = 16;
+    return !exchange::on_gpu && cells_ >= many;
+}
+
 void ConstraintDamping::set_strength(double strength) {
     share_ = share_per_strength * strength / (1 + share_per_strength * strength);
     weight_ = weight_at_most * std::min(1.0, strength);
@@ -198,21 +254,20 @@ void ConstraintDamping::apply(const double* x, const double* y, const double* z,
                               const std::array<double*, 3>& u) {
     const Surface surface{triangles_, stride_, corners_.data(), ring_begin_.data(), ring_.data()};
     const std::size_t triangles = triangles_ * cells_, nodes = stride_ * cells_;
-    const RelieveCell cell{
-        {surface, {x, y, z}, triangle_.data()},
-        {surface, triangle_.data(), node_.data()},
-        {surface, triangle_.data(), {u[0], u[1], u[2]}, rate_.data()},
-        {surface, triangle_.data(), node_.data(), rate_.data(), weight_, {u[0], u[1], u[2]}}};
+    const TriangleTask gradients{surface, {x, y, z}, triangle_.data()};
     // not by the number of threads, on which results must not depend
-    constexpr std::size_t many = 16;
-    if (!exchange::on_gpu && cells_ >= many) {
-        exchange::for_each_index(cells_, cell);
+    if (taken_one_by_one()) {
+        exchange::for_each_index(
+            cells_, RelieveCell{gradients, node_.data(), pull_.data(), weight_, {u[0], u[1], u[2]}});
     } else {
-        exchange::for_each_index(triangles, cell.gradients);
-        exchange::for_each_index(nodes, cell.sums);
+        const RateTask rates{surface, triangle_.data(), {u[0], u[1], u[2]}, rate_.data()};
+        const Relieve relieve{surface,      triangle_.data(), node_.data(),
+                              rate_.data(), weight_,          {u[0], u[1], u[2]}};
+        exchange::for_each_index(triangles, gradients);
+        exchange::for_each_index(nodes, NodeTask{surface, triangle_.data(), node_.data()});
         for (int pass = 0; pass < passes; ++pass) {
-            exchange::for_each_index(triangles, cell.rates);
-            exchange::for_each_index(nodes, cell.relieve);
+            exchange::for_each_index(triangles, rates);
+            exchange::for_each_index(nodes, relieve);
         }
     }
     scratch_->products.sum_segments(cells_, stride_, Products{stride_, node_.data(), {u[0], u[1], u[2]}},

@@ -62,12 +62,16 @@ class ConstraintDamping {
 
   private:
     struct Scratch;
+    /// Whether there are cells enough to give each to one thread.
+    [[nodiscard]] bool taken_one_by_one() const;
+
     std::size_t triangles_, stride_, cells_;
     double share_ = 0, weight_ = 0;
     exchange::Buffer<int> corners_, ring_begin_, ring_;
     exchange::Buffer<TriangleGradient> triangle_;
     exchange::Buffer<NodeGradient> node_;
     exchange::Buffer<double> rate_;
+    exchange::Buffer<Vec3d> pull_;
     exchange::Buffer<GradientSums> sums_;
     std::unique_ptr<Scratch> scratch_;
 };

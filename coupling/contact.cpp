@@ -55,7 +55,7 @@ struct NodeContact {
     HEMOFLUX_FN Met operator()(std::size_t s) const {
         const int i = static_cast<int>(s);
         Meet meet{*this, i, bins.cell[i], bins.position(i), area_of(i)};
-        bins.around(meet.at, meet);
+        if (bins.meets[i]) bins.around(meet.at, meet);
         if (walls) add_walls(meet.at, meet.own_area, meet.met);
         return meet.met;
     }

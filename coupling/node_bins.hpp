@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "coupling/cell_grid.hpp"
 #include "coupling/node_box.hpp"
@@ -25,22 +26,34 @@ NodeBox node_box(const CellGridView& grid);
 /// Bins as kernels see them. Sorted node s is node `node[s]` of cell `cell[s]` at (x, y, z)[s].
 struct NodeBinsView {
     NodeBox box;
-    int n[3];          ///< bins along each axis
-    const int* start;  ///< first sorted node of every bin, and one more entry for the end
+    double per_length[3];  ///< 1/length of the box, 1/um
+    int n[3];              ///< bins along each axis
+    const int* start;      ///< first sorted node of every bin, and one more entry for the end
     const int *node, *cell;
     const double *x, *y, *z;
+    /// 0: the bins around sorted node s hold nothing but the same image of its own cell, so it meets nobody.
+    const unsigned char* meets;
 
-    /// Bin of a coordinate along one axis; beyond walls, and for what is not a number, one at an end.
-    HEMOFLUX_INLINE int along(int axis, double X) const {
-        double t = (X - box.lower[axis]) / box.length[axis];
-        if (box.periodic[axis]) t -= std::floor(t);
+    /// Bin of a coordinate along one axis; beyond walls, and for what is not a number, one at an end. turns: periods
+    /// between the coordinate and its image in the box, 0 between walls and beyond a million.
+    HEMOFLUX_INLINE int along(int axis, double X, int* turns) const {
+        double t = (X - box.lower[axis]) * per_length[axis];
+        *turns = 0;
+        if (box.periodic[axis]) {
+            const double whole = std::floor(t);
+            if (std::fabs(whole) < 1e6) *turns = static_cast<int>(whole);
+            t -= whole;
+        }
         const int b = static_cast<int>(t * n[axis]);
         return !(t > 0) ? 0 : b < n[axis] ? b : n[axis] - 1;
     }
-    /// Number of the bin of a point, x fastest.
-    HEMOFLUX_INLINE std::size_t bin(const Vec3d& r) const {
-        const int i = along(0, r.x), j = along(1, r.y), k = along(2, r.z);
-        return static_cast<std::size_t>((k * n[1] + j) * n[0] + i);
+    /// Number of the bin of a point, x fastest. image: of which periods, along x + 16 along y + 256 along z, so that
+    /// images up to seven periods apart differ, and crossing a side adds a constant.
+    HEMOFLUX_INLINE int bin(const Vec3d& r, int* image) const {
+        int turns[3];
+        const int i = along(0, r.x, &turns[0]), j = along(1, r.y, &turns[1]), k = along(2, r.z, &turns[2]);
+        *image = turns[0] + 16 * turns[1] + 256 * turns[2];
+        return (k * n[1] + j) * n[0] + i;
     }
     /// Position of sorted node s, um.
     HEMOFLUX_INLINE Vec3d position(int s) const { return {x[s], y[s], z[s]}; }
@@ -63,8 +76,10 @@ struct NodeBinsView {
     /// Calls visit(s) for every sorted node in the bins around r, in an order that depends on positions only.
     template <class Visitor>
     HEMOFLUX_INLINE void around(const Vec3d& r, Visitor& visit) const {
-        const Span xs(along(0, r.x), n[0], box.periodic[0]), ys(along(1, r.y), n[1], box.periodic[1]),
-            zs(along(2, r.z), n[2], box.periodic[2]);
+        int turns;
+        const Span xs(along(0, r.x, &turns), n[0], box.periodic[0]),
+            ys(along(1, r.y, &turns), n[1], box.periodic[1]),
+            zs(along(2, r.z, &turns), n[2], box.periodic[2]);
         for (int c = 0; c < zs.count; ++c)
             for (int b = 0; b < ys.count; ++b) {
                 const int row = (zs.bin[c] * n[1] + ys.bin[b]) * n[0];
@@ -103,6 +118,10 @@ class NodeBins {
     /// Sorted nodes, their cells; where each (bin, chunk) begins, cursors of the sort, where each bin begins.
     exchange::Buffer<int> node_, cell_, chunk_start_, cursor_, start_;
     exchange::Buffer<double> x_, y_, z_;
+    /// Bin and image of the nodes as they come, images as they are sorted; owner of every bin (BinOwner).
+    exchange::Buffer<int> bin_, image_, sorted_image_;
+    exchange::Buffer<std::int64_t> owner_;
+    exchange::Buffer<unsigned char> meets_;
 };
 
 }  // namespace hemoflux::coupling

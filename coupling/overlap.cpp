@@ -53,6 +53,7 @@ struct NodeGap {
 
     HEMOFLUX_FN LeastGap operator()(std::size_t s) const {
         const int i = static_cast<int>(s);
+        if (!bins.meets[i]) return {};
         Nearest nearest{bins, reach2, bins.cell[i], bins.position(i), {}, {}, 0, {}};
         bins.around(nearest.at, nearest);
         LeastGap least;

@@ -8,14 +8,18 @@
 namespace hemoflux::coupling {
 namespace {
 
-/// Half-width of the band at vertex v.
-struct VertexHalfWidth {
+/// A triangle whose half-width is the largest of its corners takes the boxes of corners that have it but for rounding.
+constexpr double rounding_of_widths = 1e-9;
+
+/// Half-width of the band at vertex v, and the box around a sphere of that radius.
+struct VertexBand {
     CellGridView grid;
     HalfWidth half_width;
     std::size_t vertices;
     const int* moved;
     const double* position[3];
     double* out;
+    CellBox* box;
     HEMOFLUX_FN void operator()(std::size_t v) const {
         if (!moved[v / vertices]) return;
         double width = 0;
@@ -24,8 +28,19 @@ struct VertexHalfWidth {
             width = w > width ? w : width;
         }
         out[v] = half_width.fixed > 0 ? half_width.fixed : half_width.local_cells * width;
+        const Vec3d at{position[0][v], position[1][v], position[2][v]};
+        box[v] = band_box(grid, at, at, at, out[v] * (1 + rounding_of_widths));
     }
 };
+
+/// The least box that holds both.
+HEMOFLUX_INLINE CellBox joined(CellBox a, const CellBox& b) {
+    for (int q = 0; q < 3; ++q) {
+        a.first[q] = smaller(a.first[q], b.first[q]);
+        a.last[q] = larger(a.last[q], b.last[q]);
+    }
+    return a;
+}
 
 /// Prepares the triangles of one group of one cell.
 struct PrepareGroup {
@@ -35,11 +50,21 @@ struct PrepareGroup {
     const int *corners, *moved;
     const double* position[3];
     const double* half_width;
+    const CellBox* vertex_box;
     BandTriangle* triangle;
     CellBox *box, *group_box;
 
     HEMOFLUX_INLINE Vec3d vertex(std::size_t v) const {
         return {position[0][v], position[1][v], position[2][v]};
+    }
+
+    /// Box around the band, of half-width h, of the triangle with corners v; a look-up a vertex is cheaper than one a
+    /// triangle where the grid is uniform.
+    HEMOFLUX_INLINE CellBox band(const std::size_t* v, double h) const {
+        for (int p = 0; p < 3; ++p)
+            if (!(h <= half_width[v[p]] * (1 + rounding_of_widths)))
+                return band_box(grid, vertex(v[0]), vertex(v[1]), vertex(v[2]), h);
+        return joined(vertex_box[v[0]], joined(vertex_box[v[1]], vertex_box[v[2]]));
     }
 
     HEMOFLUX_FN void operator()(std::size_t i) const {
@@ -55,12 +80,8 @@ struct PrepareGroup {
             const double h = maximum(half_width[v[0]], maximum(half_width[v[1]], half_width[v[2]]));
             const std::size_t to = c * triangles + t;
             triangle[to] = band_triangle(vertex(v[0]), vertex(v[1]), vertex(v[2]), h, lattice);
-            const CellBox b = band_box(grid, vertex(v[0]), vertex(v[1]), vertex(v[2]), h);
-            box[to] = b;
-            for (int q = 0; q < 3; ++q) {
-                all.first[q] = t == first || b.first[q] < all.first[q] ? b.first[q] : all.first[q];
-                all.last[q] = t == first || b.last[q] > all.last[q] ? b.last[q] : all.last[q];
-            }
+            box[to] = band(v, h);
+            all = t == first ? box[to] : joined(all, box[to]);
         }
         group_box[i] = all;
     }
@@ -77,13 +98,7 @@ struct SurfaceBox {
     HEMOFLUX_FN void operator()(std::size_t c) const {
         if (!moved[c]) return;
         CellBox all = group_box[c * groups];
-        for (std::size_t g = 1; g < groups; ++g) {
-            const CellBox& b = group_box[c * groups + g];
-            for (int q = 0; q < 3; ++q) {
-                all.first[q] = smaller(all.first[q], b.first[q]);
-                all.last[q] = larger(all.last[q], b.last[q]);
-            }
-        }
+        for (std::size_t g = 1; g < groups; ++g) all = joined(all, group_box[c * groups + g]);
         for (int q = 0; q < 3; ++q) {
             const AxisView& axis = grid.axis[q];
             if (!axis.periodic) all.first[q] = larger(all.first[q], 0);
@@ -170,6 +185,7 @@ SignedDistance::SignedDistance(const CellGrid& grid, const std::vector<std::arra
       moved_(cells),
       vertex_half_width_(cells * vertices),
       triangle_(cells * triangles.size()),
+      vertex_box_(cells * vertices),
       box_(cells * triangles.size()),
       group_box_(cells * groups_of(triangles.size())),
       surface_box_(cells) {}
@@ -183,9 +199,13 @@ SurfacesView SignedDistance::view() {
 
 void SignedDistance::prepare_triangles(const double* x, const double* y, const double* z) {
     const CellGridView grid = grid_.view();
-    exchange::for_each_index(
-        cells_ * vertices_,
-        VertexHalfWidth{grid, half_width_, vertices_, moved_.data(), {x, y, z}, vertex_half_width_.data()});
+    exchange::for_each_index(cells_ * vertices_, VertexBand{grid,
+                                                            half_width_,
+                                                            vertices_,
+                                                            moved_.data(),
+                                                            {x, y, z},
+                                                            vertex_half_width_.data(),
+                                                            vertex_box_.data()});
     const std::size_t groups = groups_of(triangles_);
     exchange::for_each_index(cells_ * groups, PrepareGroup{grid,
                                                            triangles_,
@@ -196,6 +216,7 @@ void SignedDistance::prepare_triangles(const double* x, const double* y, const d
                                                            moved_.data(),
                                                            {x, y, z},
                                                            vertex_half_width_.data(),
+                                                           vertex_box_.data(),
                                                            triangle_.data(),
                                                            box_.data(),
                                                            group_box_.data()});

@@ -98,7 +98,7 @@ class SignedDistance {
     exchange::Buffer<int> corners_, moved_;
     exchange::Buffer<double> vertex_half_width_;
     exchange::Buffer<BandTriangle> triangle_;
-    exchange::Buffer<CellBox> box_, group_box_, surface_box_;
+    exchange::Buffer<CellBox> vertex_box_, box_, group_box_, surface_box_;
     std::size_t row_capacity_ = 0, capacity_ = 0;
     exchange::Buffer<double> centre_x_, ratio_;
     exchange::Buffer<int> winding_;

@@ -149,8 +149,29 @@ double inclination(const ShapeMoments& moments) {
     return degrees;
 }
 
-double tank_treading_angle(const Vec3d& point, const Vec3d& centroid) {
+double angle_about(const Vec3d& point, const Vec3d& centroid) {
     return std::atan2(point.y - centroid.y, point.x - centroid.x);
+}
+
+double membrane_turn(const std::vector<Vec3d>& positions, std::span<const double> labels,
+                     const Vec3d& centroid, double inclination) {
+    // weights fall by e where a cell is a twentieth of its length shorter: wide enough for several vertices to count
+    constexpr double sharpness = 20;
+    const double cosine = std::cos(inclination), sine = std::sin(inclination);
+    const auto along = [&](const Vec3d& p) {
+        return cosine * (p.x - centroid.x) + sine * (p.y - centroid.y);
+    };
+    double low = 0, high = 0;
+    for (const Vec3d& p : positions) low = std::min(low, along(p)), high = std::max(high, along(p));
+    double x = 0, y = 0;
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        const double at = along(positions[v]), per_length = 2 * sharpness / (high - low);
+        const double weight = std::exp(per_length * (at - high)) - std::exp(per_length * (low - at));
+        x += weight * std::cos(labels[v]);
+        y += weight * std::sin(labels[v]);
+    }
+    const double turn = std::remainder(inclination - std::atan2(y, x), 2 * pi);
+    return turn > -pi ? turn : pi;
 }
 
 Diameters stretch_diameters(const std::vector<Vec3d>& positions, const Vec3d& centroid) {

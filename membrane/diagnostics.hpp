@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "exchange/vec3.hpp"
@@ -66,9 +67,16 @@ double taylor_deformation_extent(const std::vector<Vec3d>& positions, const Vec3
 /// that axis is within 30 degrees of z, as one of the two equal axes of a disc may be, the next one counts.
 double inclination(const ShapeMoments& moments);
 
-/// Angle in radians, in (-pi, pi], of a material point about the volume centroid in the xy plane. The caller
-/// unwraps it in time; it falls as the membrane rolls with u = G y.
-double tank_treading_angle(const Vec3d& point, const Vec3d& centroid);
+/// Angle in radians, in (-pi, pi], of a point about the volume centroid in the xy plane.
+double angle_about(const Vec3d& point, const Vec3d& centroid);
+
+/// How far the membrane has turned since its vertices had the angles `labels` (angle_about the centroid, rad), in the xy
+/// plane, in radians in (-pi, pi]: the inclination (rad; half turns do not matter) less the mean label of the vertices
+/// that are now at the ends of the cell in that direction. The caller unwraps it in time; it falls as the membrane rolls
+/// with u = G y, and is the angle of a body that turns as a whole. A point that is followed about the centroid loses
+/// a turn where a folded cell does not enclose its centroid; the ends are never there.
+double membrane_turn(const std::vector<Vec3d>& positions, std::span<const double> labels,
+                     const Vec3d& centroid, double inclination);
 
 /// Diameters along and across x of a cell centred at `centroid`: 2 max |r| and 2 max (y^2 + z^2)^{1/2}
 /// (section 7.2.2), um.

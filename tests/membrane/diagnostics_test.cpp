@@ -123,8 +123,61 @@ TEST(Inclination, OfADiscSeenEdgeOnIsThatOfItsPlane) {
 }
 
 TEST(TankTreading, AngleAboutTheCentroid) {
-    EXPECT_DOUBLE_EQ(tank_treading_angle({6, 7, 1}, {6, 6, 6}), pi / 2);
-    EXPECT_DOUBLE_EQ(tank_treading_angle({5, 5, 1}, {6, 6, 6}), -3 * pi / 4);
+    EXPECT_DOUBLE_EQ(angle_about({6, 7, 1}, {6, 6, 6}), pi / 2);
+    EXPECT_DOUBLE_EQ(angle_about({5, 5, 1}, {6, 6, 6}), -3 * pi / 4);
+}
+
+/// A spheroid whose vertices have rolled by an angle (rad, against the clock) along its outline, then bent into a
+/// banana, turned about z as a whole, and moved.
+std::vector<Vec3d> rolled(double roll, double bend, double turn, const std::vector<Vec3d>& sphere) {
+    std::vector<Vec3d> at;
+    for (const Vec3d& r : sphere) {
+        const double c = std::cos(roll), s = std::sin(roll);
+        const double x = 4 * (c * r.x - s * r.y), y = s * r.x + c * r.y + bend * x * x;
+        at.push_back(
+            {std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y, 2 * r.z});
+    }
+    return at;
+}
+
+std::vector<double> labels_of(const std::vector<Vec3d>& sphere) {
+    std::vector<double> labels;
+    for (const Vec3d& r : sphere) labels.push_back(angle_about(r, {0, 0, 0}));
+    return labels;
+}
+
+TEST(TankTreading, TurnsWithTheCellAndRollsWithTheMembrane) {
+    const auto sphere = meshing::icosphere(3, 1.0).vertices;
+    const auto labels = labels_of(sphere);
+    for (const double turn : {0.0, 0.3, -1.2})
+        for (const double roll : {0.0, 0.2, 1.0, -2.0, 3.0}) {
+            const auto at = rolled(roll, 0, turn, sphere);
+            const double expected = std::remainder(turn + roll, 2 * pi);
+            EXPECT_NEAR(std::remainder(membrane_turn(at, labels, {0, 0, 0}, turn) - expected, 2 * pi), 0,
+                        0.03);
+            EXPECT_NEAR(std::remainder(membrane_turn(at, labels, {0, 0, 0}, turn + pi) - expected, 2 * pi), 0,
+                        0.03);
+        }
+}
+
+// A point of a folded cell does not go round the centroid, which lies outside.
+TEST(TankTreading, CountsTheTurnsOfACellFoldedOverItsCentroid) {
+    const auto mesh = meshing::icosphere(3, 1.0);
+    const auto labels = labels_of(mesh.vertices);
+    const double inclination_rad = 0.3;
+    double turned = 0, angle = 0;
+    for (int step = 0; step <= 100; ++step) {
+        auto now = mesh;
+        now.vertices = rolled(-2 * pi * step / 100, 0.25, inclination_rad, mesh.vertices);
+        const Vec3d centroid = moments(now).centroid;
+        const double turn = membrane_turn(now.vertices, labels, centroid, inclination_rad);
+        const double of_point = angle_about(now.vertices[0], centroid);
+        if (step == 0) turned = turn, angle = of_point;
+        turned += std::remainder(turn - turned, 2 * pi);
+        angle += std::remainder(of_point - angle, 2 * pi);
+    }
+    EXPECT_NEAR(turned, inclination_rad - 2 * pi, 0.05);
+    EXPECT_GT(angle, -pi);
 }
 
 TEST(Diameters, AreTwiceTheGreatestDistances) {
