@@ -64,7 +64,7 @@ Table rigid_body_table() {
           "\"auto\"",
           "by how many local cells the nodes are drawn in, because smeared forces act as a larger body; "
           "auto: as "
-          "measured on a turning sphere, 0.12 lagrange, 0.34 phi2, 0.38 phi3, 0.51 phi4"},
+          "measured on a turning sphere, 0.12 lagrange (0.19 on a mesh), 0.34 phi2, 0.38 phi3, 0.51 phi4"},
          {"speed",
           {quantity_in("um/s").above(0, "a speed is positive")},
           "",

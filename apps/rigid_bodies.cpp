@@ -75,7 +75,8 @@ RigidBodies::RigidBodies(const Case& c, const Scales& scales, coupling::Loop& lo
         const double h = cells_around(in, grid_);
         coupling::BodySurface surface = make_surface(in, h);
         check_inside(c, i, surface, grid_);
-        coupling::retract(surface, grid_, vec(in.position), retraction(in, c.coupling.kernel));
+        coupling::retract(surface, grid_, vec(in.position),
+                          retraction(in, c.coupling.kernel, c.mesh.has_value()));
         coupling::BodyOptions o;
         o.name = name_of(in, i);
         o.forcing = in.method == RigidMethod::direct ? coupling::BodyForcing::direct

@@ -63,7 +63,7 @@ coupling::BodySurface make_surface(const RigidInput& b, double h) {
     return coupling::closed_surface(std::move(mesh));
 }
 
-double retraction(const RigidInput& b, Kernel kernel) {
+double retraction(const RigidInput& b, Kernel kernel, bool hexahedra) {
     if (b.retraction) return *b.retraction;
     switch (kernel) {
         case Kernel::phi2:
@@ -75,7 +75,7 @@ double retraction(const RigidInput& b, Kernel kernel) {
         case Kernel::lagrange:
             break;
     }
-    return 0.12;
+    return hexahedra ? 0.19 : 0.12;
 }
 
 void check_inside(const Case& c, std::size_t index, const coupling::BodySurface& surface,

@@ -19,8 +19,9 @@ double cells_around(const RigidInput& body, const coupling::FluidGrid& grid);
 /// FileError, InputError.
 coupling::BodySurface make_surface(const RigidInput& body, double h);
 
-/// By how many local cells the nodes are drawn in: as given, or what makes the torque on a turning sphere right.
-double retraction(const RigidInput& body, Kernel kernel);
+/// By how many local cells the nodes are drawn in: as given, or what makes the torque on a turning sphere right in boxes of
+/// cells or, `hexahedra`, on equal unstructured ones.
+double retraction(const RigidInput& body, Kernel kernel, bool hexahedra);
 
 /// InputError when the surface of body `index` reaches through the border of the grid.
 void check_inside(const Case& c, std::size_t index, const coupling::BodySurface& surface,
