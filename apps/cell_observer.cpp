@@ -150,9 +150,10 @@ std::map<std::string, double> CellObserver::observables(double from, double to) 
         one["taylor_d"] = mean(taylor);
         one["taylor_d_volume"] = mean(taylor_volume);
         one["taylor_d_extent"] = mean(taylor_extent);
-        const double rate = std::abs(slope(x, angle));
-        one["period_strain"] = 2 * pi / rate;
-        one["tank_treading_cycles_per_strain"] = rate / (2 * pi);
+        // half turns are alike, parts of them are not; without a whole one the mean rate is all there is
+        const double period = std::isfinite(m.period()) ? m.period() : 2 * pi / std::abs(slope(x, angle));
+        one["period_strain"] = period;
+        one["tank_treading_cycles_per_strain"] = 1 / period;
         for (const auto& [name, value] : one) sum[name] += value / static_cast<double>(cells_);
     }
     return sum;
