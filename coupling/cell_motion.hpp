@@ -1,8 +1,8 @@
 /// Which of the motions of section 7.4 a cell in shear flow performs, from its histories alone.
 ///
 /// Two angles tell: alpha, that of the cell's longest axis to the flow (the inclination, known up to half turns), and
-/// phi = alpha - theta, how far a material point of the membrane, at the angle theta about the centroid, has gone round
-/// as seen from that axis. One keeps turning when it gains half a turn or more.
+/// phi = alpha - theta, how far the membrane has gone round as seen from that axis, theta being how far it has turned in
+/// space (membrane::membrane_turn). One keeps turning when it gains half a turn or more.
 ///
 ///   | motion        | alpha                               | phi           |
 ///   | tumbling      | keeps turning                       | swings        |
@@ -29,7 +29,7 @@ inline constexpr double swinging_threshold_deg = 2;
 struct MotionHistory {
     std::vector<double> strain;
     std::vector<double> inclination_deg;  ///< in (-90, 90], or unwrapped
-    std::vector<double> material_deg;     ///< angle of the material point, unwrapped or not
+    std::vector<double> material_deg;     ///< theta, how far the membrane has turned, unwrapped or not
 
     /// The records with strain in [from, to].
     [[nodiscard]] MotionHistory window(double from, double to) const;
