@@ -188,7 +188,10 @@ struct RelieveCell {
         const Corners corner = corners(cell, t);
         const TriangleGradient& g = task.out[cell * task.surface.triangles + t];
         double rate = 0;
-        for (int c = 0; c < 3; ++c) rate += dot(g.area[c], at(u, corner.of[c]));
+        for (int c = 0; c < 3; ++c) {
+            const std::size_t i = corner.of[c];
+            rate += dot(g.area[c], Vec3d{u[0][i], u[1][i], u[2][i]});
+        }
         rate *= g.inverse_area;
         for (int c = 0; c < 3; ++c) pull[corner.of[c]] += rate * g.area[c];
     }
