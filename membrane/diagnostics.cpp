@@ -155,7 +155,7 @@ double angle_about(const Vec3d& point, const Vec3d& centroid) {
 
 double membrane_turn(const std::vector<Vec3d>& positions, std::span<const double> labels,
                      const Vec3d& centroid, double inclination) {
-    // weights fall by e where a cell is a twentieth of its length shorter: wide enough for several vertices to count
+    // weights fall by e within a fortieth of the length of the cell: wide enough for several vertices to count
     constexpr double sharpness = 20;
     const double cosine = std::cos(inclination), sine = std::sin(inclination);
     const auto along = [&](const Vec3d& p) {
