@@ -150,10 +150,10 @@ std::map<std::string, double> CellObserver::observables(double from, double to) 
         one["taylor_d"] = mean(taylor);
         one["taylor_d_volume"] = mean(taylor_volume);
         one["taylor_d_extent"] = mean(taylor_extent);
-        // half turns are alike, parts of them are not; without a whole one the mean rate is all there is
-        const double period = std::isfinite(m.period()) ? m.period() : 2 * pi / std::abs(slope(x, angle));
-        one["period_strain"] = period;
-        one["tank_treading_cycles_per_strain"] = 1 / period;
+        one["period_strain"] = m.period();
+        // half turns are alike, parts of them are not: a rate is the mean one where no whole half turn was seen
+        one["tank_treading_cycles_per_strain"] =
+            std::isfinite(m.period()) ? 1 / m.period() : std::abs(slope(x, angle)) / (2 * pi);
         for (const auto& [name, value] : one) sum[name] += value / static_cast<double>(cells_);
     }
     return sum;

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "apps/case_suspension.hpp"
 #include "apps/cell_builder.hpp"

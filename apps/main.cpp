@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -81,6 +82,12 @@ int run_program(int argc, char** argv) {
     return code;
 }
 
+/// Ends a child that draws (output/pictures.hpp), without exit handlers: graphics drivers leak in theirs.
+[[noreturn]] void leave(int code) {
+    std::fflush(nullptr);
+    std::_Exit(code);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -88,13 +95,10 @@ int main(int argc, char** argv) {
                 SIG_IGN);  // a limit on the size of files is then an error of write(), with its message
     hemoflux::exchange::limit_spinning(argv);
     try {
-        if (argc > 1 &&
-            std::string(argv[1]) == "render-pictures") {  // the child that draws, see output/pictures.hpp
-            return hemoflux::output::render_pictures_main({argv + 2, argv + argc});
-        }
-        if (argc > 1 && std::string(argv[1]) == "render-gallery") {
-            return hemoflux::output::render_gallery_main({argv + 2, argv + argc});
-        }
+        if (argc > 1 && std::string(argv[1]) == "render-pictures")
+            leave(hemoflux::output::render_pictures_main({argv + 2, argv + argc}));
+        if (argc > 1 && std::string(argv[1]) == "render-gallery")
+            leave(hemoflux::output::render_gallery_main({argv + 2, argv + argc}));
         return run_program(argc, argv);
     } catch (const hemoflux::Error& error) {
         fmt::print(stderr, "error: {}\n", error.what());

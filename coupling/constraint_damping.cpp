@@ -244,6 +244,7 @@ ConstraintDamping::ConstraintDamping(const std::vector<std::array<int, 3>>& tria
 ConstraintDamping::~ConstraintDamping() = default;
 
 bool ConstraintDamping::taken_one_by_one() const {
+    // a cell a task takes every triangle once, not from each of its corners; with few cells threads would stand idle
     constexpr std::size_t many = 16;
     return !exchange::on_gpu && cells_ >= many;
 }

@@ -35,7 +35,7 @@ struct NodeContact {
 
     struct Meet {
         const NodeContact& c;
-        int self, cell;
+        int cell;
         Vec3d at;
         double own_area;
         Met met{};
@@ -54,7 +54,7 @@ struct NodeContact {
 
     HEMOFLUX_FN Met operator()(std::size_t s) const {
         const int i = static_cast<int>(s);
-        Meet meet{*this, i, bins.cell[i], bins.position(i), area_of(i)};
+        Meet meet{*this, bins.cell[i], bins.position(i), area_of(i)};
         if (bins.meets[i]) bins.around(meet.at, meet);
         if (walls) add_walls(meet.at, meet.own_area, meet.met);
         return meet.met;

@@ -44,7 +44,7 @@ struct CellOptions {
 
 /// What the cells' future depends on besides fluid and nodes.
 struct CellMemory {
-    std::array<std::vector<double>, 3> viscosity_nodes;  ///< nodes when the viscosity was last computed
+    std::array<std::vector<double>, 3> viscosity_nodes;  ///< where each membrane was last measured
     std::array<double, 3> target{};                      ///< where the centroid is held
     std::array<double, 3> shift{};                       ///< sum of all shifts so far
     std::vector<double> pull{};                          ///< the constant load, as given

@@ -131,7 +131,7 @@ struct MarkMeeting {
                     std::int64_t image_x;
                     if (!step(0, i, a, &to_x, &image_x)) continue;
                     const std::int64_t other = owner[(to_z * bins.n[1] + to_y) * bins.n[0] + to_x];
-                    if (other != nobody && other != own + cells * (image_x + 16 * image_y + 256 * image_z))
+                    if (other != nobody && other != own + cells * image_number(image_x, image_y, image_z))
                         return true;
                 }
             }

@@ -23,6 +23,12 @@ namespace hemoflux::coupling {
 /// The box of a fluid grid.
 NodeBox node_box(const CellGridView& grid);
 
+/// One number for the periods along x, y and z that an image is away: those up to seven periods apart differ, and crossing
+/// a side adds a constant.
+HEMOFLUX_INLINE std::int64_t image_number(std::int64_t x, std::int64_t y, std::int64_t z) {
+    return x + 16 * y + 256 * z;
+}
+
 /// Bins as kernels see them. Sorted node s is node `node[s]` of cell `cell[s]` at (x, y, z)[s].
 struct NodeBinsView {
     NodeBox box;
@@ -47,12 +53,11 @@ struct NodeBinsView {
         const int b = static_cast<int>(t * n[axis]);
         return !(t > 0) ? 0 : b < n[axis] ? b : n[axis] - 1;
     }
-    /// Number of the bin of a point, x fastest. image: of which periods, along x + 16 along y + 256 along z, so that
-    /// images up to seven periods apart differ, and crossing a side adds a constant.
+    /// Number of the bin of a point, x fastest. image: image_number of its periods.
     HEMOFLUX_INLINE int bin(const Vec3d& r, int* image) const {
         int turns[3];
         const int i = along(0, r.x, &turns[0]), j = along(1, r.y, &turns[1]), k = along(2, r.z, &turns[2]);
-        *image = turns[0] + 16 * turns[1] + 256 * turns[2];
+        *image = static_cast<int>(image_number(turns[0], turns[1], turns[2]));
         return (k * n[1] + j) * n[0] + i;
     }
     /// Position of sorted node s, um.

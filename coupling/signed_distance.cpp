@@ -1,6 +1,7 @@
 #include "coupling/signed_distance.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "coupling/surface_scan.hpp"
 #include "exchange/parallel.hpp"
@@ -188,12 +189,13 @@ SignedDistance::SignedDistance(const CellGrid& grid, const std::vector<std::arra
       vertex_box_(cells * vertices),
       box_(cells * triangles.size()),
       group_box_(cells * groups_of(triangles.size())),
-      surface_box_(cells) {}
+      surface_box_(cells),
+      capacity_(cells, 0) {}
 
 SurfacesView SignedDistance::view() {
     return {grid_.view(),        cells_,           triangles_,        groups_of(triangles_),
             triangle_.data(),    box_.data(),      group_box_.data(), lattice_,
-            surface_box_.data(), centre_x_.data(), row_capacity_,     capacity_,
+            surface_box_.data(), centre_x_.data(), row_capacity_,     begin_.data(),
             ratio_.data(),       winding_.data()};
 }
 
@@ -225,19 +227,28 @@ void SignedDistance::prepare_triangles(const double* x, const double* y, const d
 }
 
 bool SignedDistance::make_room(const std::vector<CellBox>& boxes) {
-    std::size_t row = 0, values = 0;
-    for (const CellBox& b : boxes) {
-        const auto rows = static_cast<std::size_t>((b.last[1] - b.first[1]) * (b.last[2] - b.first[2]));
-        row = std::max(row, SurfacesView::row_length(b));
-        values = std::max(values, rows * SurfacesView::row_length(b));
+    const auto values = [](const CellBox& b) {
+        return static_cast<std::size_t>((b.last[1] - b.first[1]) * (b.last[2] - b.first[2])) *
+               SurfacesView::row_length(b);
+    };
+    std::size_t row = 0;
+    bool fits = true;
+    for (std::size_t c = 0; c < cells_; ++c) {
+        row = std::max(row, SurfacesView::row_length(boxes[c]));
+        fits = fits && values(boxes[c]) <= capacity_[c];
     }
-    if (row <= row_capacity_ && values <= capacity_) return true;
-    // a cell that turns or stretches needs more before long
+    if (fits && row <= row_capacity_) return true;
+    // cells that turn or stretch need more before long
     row_capacity_ = std::max(row_capacity_, row + row / 4);
-    capacity_ = std::max(capacity_, values + values / 2);
+    for (std::size_t c = 0; c < cells_; ++c)
+        capacity_[c] = std::max(capacity_[c], values(boxes[c]) + values(boxes[c]) / 2);
+    std::vector<std::size_t> begin(cells_);
+    std::exclusive_scan(capacity_.begin(), capacity_.end(), begin.begin(), std::size_t{0});
+    const std::size_t all = begin.back() + capacity_.back();
+    begin_ = exchange::Buffer<std::size_t>(begin);
     centre_x_ = exchange::Buffer<double>(cells_ * row_capacity_);
-    ratio_ = exchange::Buffer<double>(cells_ * capacity_);
-    winding_ = exchange::Buffer<int>(cells_ * capacity_);
+    ratio_ = exchange::Buffer<double>(all);
+    winding_ = exchange::Buffer<int>(all);
     return false;
 }
 

@@ -15,7 +15,6 @@
 
 #include "coupling/band_triangle.hpp"
 #include "coupling/cell_grid.hpp"
-#include "coupling/tiles.hpp"
 #include "exchange/buffer.hpp"
 #include "exchange/pack.hpp"
 
@@ -25,7 +24,7 @@ namespace hemoflux::coupling {
 inline constexpr std::size_t triangle_group = 16;
 
 /// The prepared surfaces as kernels see them; trivially copyable. Each has a box of unwrapped cells around it and its
-/// band, and `capacity` values for what is measured there, in rows along x.
+/// band, and values for what is measured there, in rows along x.
 struct SurfacesView {
     CellGridView grid;
     /// Membrane cells, triangles and groups of each.
@@ -38,7 +37,9 @@ struct SurfacesView {
     /// Box around each surface, and the centres of its cells along x, um: surface c has them from c * row_capacity on.
     const CellBox* surface_box;
     const double* centre_x;
-    std::size_t row_capacity, capacity;
+    std::size_t row_capacity;
+    /// Where the values of each surface begin.
+    const std::size_t* begin;
     /// Work, (d/h)^2 and changes of the winding number; `ratio` becomes d/h.
     double* ratio;
     int* winding;
@@ -48,7 +49,7 @@ struct SurfacesView {
         const CellBox& b = surface_box[c];
         const auto number =
             static_cast<std::size_t>((k - b.first[2]) * (b.last[1] - b.first[1]) + (j - b.first[1]));
-        return c * capacity + number * row_length(b);
+        return begin[c] + number * row_length(b);
     }
     /// Values that a row of box b takes: a pack may start at its last cell.
     HEMOFLUX_INLINE static std::size_t row_length(const CellBox& b) {
@@ -79,9 +80,6 @@ class SignedDistance {
     [[nodiscard]] const double* half_widths() const { return vertex_half_width_.data(); }
     /// The prepared triangles of all surfaces; device.
     [[nodiscard]] const BandTriangle* triangles() const { return triangle_.data(); }
-    /// Vertices of one surface, and number of surfaces.
-    [[nodiscard]] std::size_t vertices() const { return vertices_; }
-    [[nodiscard]] std::size_t cells() const { return cells_; }
 
   private:
     /// Makes room for the boxes as they are and says whether the values of surfaces that did not move were kept.
@@ -99,7 +97,10 @@ class SignedDistance {
     exchange::Buffer<double> vertex_half_width_;
     exchange::Buffer<BandTriangle> triangle_;
     exchange::Buffer<CellBox> vertex_box_, box_, group_box_, surface_box_;
-    std::size_t row_capacity_ = 0, capacity_ = 0;
+    std::size_t row_capacity_ = 0;
+    /// Values there is room for, surface by surface: one that is torn apart has a box as large as the grid, or larger.
+    std::vector<std::size_t> capacity_;
+    exchange::Buffer<std::size_t> begin_;
     exchange::Buffer<double> centre_x_, ratio_;
     exchange::Buffer<int> winding_;
 };

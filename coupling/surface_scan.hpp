@@ -6,10 +6,12 @@
 #include <cstdint>
 
 #include "coupling/signed_distance.hpp"
+#include "coupling/tiles.hpp"
 #include "exchange/pack.hpp"
 
 namespace hemoflux::coupling {
 
+/// The larger and the smaller of two; std::max is not for kernels.
 HEMOFLUX_INLINE int larger(int a, int b) { return a > b ? a : b; }
 HEMOFLUX_INLINE int smaller(int a, int b) { return a < b ? a : b; }
 
@@ -17,8 +19,8 @@ HEMOFLUX_INLINE int smaller(int a, int b) { return a < b ? a : b; }
 /// periods do not show.
 class SurfaceScan {
   public:
-    /// Tile number `tile` of the box around surface c; a box has fewer tiles than the largest, and then there is
-    /// nothing to do.
+    /// Tile number `tile` of the box around surface c. Smaller boxes than the largest have fewer tiles, and nothing to do
+    /// for the numbers beyond theirs.
     HEMOFLUX_INLINE SurfaceScan(const SurfacesView& surfaces, std::size_t c, int tile)
         : s_(surfaces), c_(c), box_(surfaces.surface_box[c]) {
         const int tiles_y = (box_.last[1] - box_.first[1] + tile_rows - 1) / tile_rows;

@@ -6,7 +6,6 @@
 #include "coupling/band_triangle.hpp"
 #include "coupling/triangle_rings.hpp"
 #include "exchange/error.hpp"
-#include "exchange/memory.hpp"
 #include "exchange/parallel.hpp"
 
 namespace hemoflux::coupling {

@@ -70,7 +70,7 @@ double inclination(const ShapeMoments& moments);
 /// Angle in radians, in (-pi, pi], of a point about the volume centroid in the xy plane.
 double angle_about(const Vec3d& point, const Vec3d& centroid);
 
-/// How far the membrane has turned since its vertices had the angles `labels` (angle_about the centroid, rad), in the xy
+/// How far the membrane has turned since its vertices had the angles `labels` (angle_about the centroid, rad; one a vertex), in the xy
 /// plane, in radians in (-pi, pi]: the inclination (rad; half turns do not matter) less the mean label of the vertices
 /// that are now at the ends of the cell in that direction. The caller unwraps it in time; it falls as the membrane rolls
 /// with u = G y, and is the angle of a body that turns as a whole. A point that is followed about the centroid loses

@@ -14,7 +14,7 @@ namespace hemoflux::meshing {
 namespace {
 
 struct ElementType {
-    std::size_t nodes;  ///< 0: none of these is in a mesh of ours, nor read here
+    std::size_t nodes;  ///< entry 0 of the table stands for no type
     long long dimension;
 };
 

@@ -20,7 +20,7 @@ std::string_view line_at(std::string_view text, std::size_t at) {
 std::map<std::string, std::string_view> msh_sections(const std::string& text) {
     std::map<std::string, std::string_view> sections;
     std::size_t last = 0, at = 0;
-    while ((at = text.find_first_not_of(" \t\r\n", at)) != std::string::npos) {
+    while ((at = text.find_first_not_of(blank, at)) != std::string::npos) {
         const std::string_view opening = line_at(text, at);
         if (opening[0] != '$' || (at > 0 && text[at - 1] != '\n'))
             throw FormatError(

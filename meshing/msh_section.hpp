@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "meshing/file_text.hpp"
 #include "meshing/format_error.hpp"
 
 namespace hemoflux::meshing {
@@ -24,27 +25,27 @@ std::map<std::string, std::string_view> msh_sections(const std::string& text);
 /// Takes numbers off a section, written as text or as bytes; FormatError with the section and, of text, the line.
 class MshNumbers {
   public:
+    /// The text or bytes between the section's first and last line, its name without $, and whether it is bytes.
     MshNumbers(std::string_view section, std::string name, bool binary)
         : all_(section), rest_(section), name_(std::move(name)), binary_(binary) {}
 
-    [[noreturn]] void refuse(const std::string& why) const {
-        const auto line =
-            std::count(all_.begin(), all_.end() - static_cast<std::ptrdiff_t>(rest_.size()), '\n');
-        throw FormatError(binary_ ? fmt::format("section ${}: {}", name_, why)
-                                  : fmt::format("section ${}, its line {}: {}", name_, line + 1, why));
-    }
+    /// Throws FormatError for what was taken last, with its line in the section, counted from 1.
+    [[noreturn]] void refuse(const std::string& why) const { refuse_at(all_.size() - rest_.size(), why); }
 
     /// A whole number that gmsh keeps in 32 bits.
     long long integer() {
         const long long value = binary_ ? bytes<std::int32_t>() : word<long long>();
-        if (std::abs(value) > std::numeric_limits<std::int32_t>::max())
+        if (value > std::numeric_limits<std::int32_t>::max() ||
+            value < -std::numeric_limits<std::int32_t>::max())
             refuse(fmt::format("{} is too large for a number of 32 bits", value));
         return value;
     }
+    /// A number of things, or the number of a thing.
     std::uint64_t size() { return binary_ ? bytes<std::uint64_t>() : word<std::uint64_t>(); }
+    /// A finite number.
     double real() {
         const double value = binary_ ? bytes<double>() : word<double>();
-        if (!std::isfinite(value)) refuse("a coordinate is not a finite number");
+        if (!std::isfinite(value)) refuse(fmt::format("{} is not a finite number", value));
         return value;
     }
     /// A number of things of which each takes at least `least` bytes.
@@ -53,18 +54,18 @@ class MshNumbers {
             refuse(fmt::format("it claims {} entries, more than the file holds", n));
         return n;
     }
-    /// Takes a word of text; empty where another stands.
+    /// Takes this word of text if it is the next; whether it was.
     bool skip(std::string_view expected) {
         const std::size_t begin = rest_.find_first_not_of(blank);
         if (begin == std::string_view::npos || !rest_.substr(begin).starts_with(expected)) return false;
         rest_.remove_prefix(begin + expected.size());
         return true;
     }
-    /// The rest of the line, taken with its end; of bytes nothing.
+    /// The rest of the line, taken without its end; of bytes nothing.
     std::string_view line() {
         if (binary_) return {};
         const std::string_view text = rest_.substr(0, rest_.find('\n'));
-        rest_.remove_prefix(std::min(rest_.size(), text.size() + 1));
+        rest_.remove_prefix(text.size());
         return text;
     }
     /// Refuses more on the line, where gmsh reads line by line.
@@ -75,12 +76,16 @@ class MshNumbers {
     }
     /// Refuses more in the section.
     void end() const {
-        if (rest_.find_first_not_of(blank) != std::string_view::npos)
-            refuse("more stands there than it claims to hold");
+        if (const std::size_t more = rest_.find_first_not_of(blank); more != std::string_view::npos)
+            refuse_at(all_.size() - rest_.size() + more, "more stands there than it claims to hold");
     }
 
   private:
-    static constexpr const char* blank = " \t\r\n";
+    [[noreturn]] void refuse_at(std::size_t at, const std::string& why) const {
+        const auto line = std::count(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+        throw FormatError(binary_ ? fmt::format("section ${}: {}", name_, why)
+                                  : fmt::format("section ${}, its line {}: {}", name_, line + 1, why));
+    }
 
     template <class T>
     T bytes() {

@@ -14,15 +14,11 @@
 #include <cstring>
 #include <limits>
 
+#include "meshing/file_text.hpp"
 #include "meshing/format_error.hpp"
 
 namespace hemoflux::meshing {
 namespace {
-
-/// What zlib packs at most into one byte; other compressors of VTK pack less.
-constexpr std::uint64_t best_compression = 1032;
-
-constexpr const char* blank = " \t\r\n";
 
 /// A type of values: 'f', 'i' or 'u' with its bytes; 's' for strings.
 struct Type {
@@ -63,9 +59,18 @@ bool is_text(const VtkElement& array) {
     return !array.attributes.contains("offset") && array.attribute("format") != "binary";
 }
 
+/// Whether nothing at all stands for the array, not even a header.
+bool is_absent(const VtkElement& array) {
+    return !array.attributes.contains("offset") &&
+           array.text.find_first_not_of(blank) == std::string_view::npos;
+}
+
 template <class T>
 bool parses(std::string_view word, T& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-')) return false;
+    }
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     return error == std::errc() && end == word.data() + word.size();
 }
@@ -84,7 +89,7 @@ bool is_value(std::string_view word, const Type& type, std::int64_t& whole) {
         whole = static_cast<std::int64_t>(value);
         return good;
     }
-    const unsigned bits = static_cast<unsigned>(8 * std::min<std::size_t>(type.size, 8));
+    const unsigned bits = static_cast<unsigned>(8 * type.size);
     const std::int64_t high = type.kind == 'u' || type.kind == 's'
                                   ? (std::int64_t{1} << bits) - 1
                                   : std::numeric_limits<std::int64_t>::max() >> (64 - bits);
@@ -234,9 +239,7 @@ std::string VtkArrays::bytes(const VtkElement& array) const {
 
 void VtkArrays::check(const VtkElement& array, std::uint64_t n) const {
     const Type& type = type_of(array);
-    if (n == 0 && !array.attributes.contains("offset") &&
-        array.text.find_first_not_of(blank) == std::string_view::npos)
-        return;
+    if (n == 0 && is_absent(array)) return;
     std::uint64_t values = 0;
     if (type.kind == 's') {  // each ends with a zero
         if (is_text(array)) {
@@ -261,13 +264,15 @@ std::vector<std::int64_t> VtkArrays::integers(const VtkElement& array, std::uint
     const Type& type = type_of(array);
     if (type.kind != 'i' && type.kind != 'u')
         refuse(array, fmt::format("is of type {}, not of whole numbers", type.name));
+    if (n == 0 && is_absent(array)) return {};
     if (is_text(array)) {
         std::vector<std::int64_t> values = words(array, type);
         if (values.size() != n) refuse_number(array, values.size(), n);
         return values;
     }
     const std::string data = bytes(array);
-    if (data.size() != n * type.size) refuse_number(array, data.size() / type.size, n);
+    if (data.size() % type.size != 0 || data.size() / type.size != n)
+        refuse_number(array, data.size() / type.size, n);
     std::vector<std::int64_t> values(n);
     for (std::size_t i = 0; i < n; ++i) {
         std::string value = data.substr(i * type.size, type.size);

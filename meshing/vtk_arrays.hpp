@@ -10,6 +10,10 @@
 
 namespace hemoflux::meshing {
 
+/// Bytes that one packed byte of a file is let unpack to: what zlib packs at most, and any of VTK's compressors in blocks
+/// of its usual 32 KiB (LZMA, which could pack more, begins a block with a header of its own).
+inline constexpr std::uint64_t best_compression = 1032;
+
 /// Reads the arrays of one file: as text, in base64, or appended in base64 or as bytes; the last three compressed or not.
 class VtkArrays {
   public:

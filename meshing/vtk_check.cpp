@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "meshing/file_text.hpp"
 #include "meshing/format_error.hpp"
 #include "meshing/vtk_arrays.hpp"
 #include "meshing/vtk_markup.hpp"
@@ -15,8 +16,6 @@
 namespace hemoflux::meshing {
 namespace {
 
-/// What zlib packs at most into one byte; other compressors of VTK pack less.
-constexpr std::uint64_t best_compression = 1032;
 /// Components of one tuple; tensors have nine.
 constexpr std::uint64_t most_components = 64;
 
@@ -97,9 +96,10 @@ struct Checker {
         const std::vector<std::int64_t> offsets = arrays.integers(*named.at("offsets"), n);
         if (offsets.front() < 0 || !std::is_sorted(offsets.begin(), offsets.end()))
             throw FormatError("array \"offsets\" does not ascend from 0");
-        if (offsets.back() > 0)
-            static_cast<void>(
-                arrays.integers(*named.at("connectivity"), static_cast<std::uint64_t>(offsets.back())));
+        const auto corners = static_cast<std::uint64_t>(offsets.back());
+        if (corners > most)
+            throw FormatError(fmt::format("its cells claim {} nodes, more than its bytes can hold", corners));
+        static_cast<void>(arrays.integers(*named.at("connectivity"), corners));
     }
 
     /// Returns what is the same in all pieces.
@@ -145,12 +145,8 @@ struct Checker {
 
 void check_vtk(const std::string& text, const std::string& type) {
     const std::size_t root = text.find("<VTKFile");
-    if (root == std::string::npos) {
-        std::string begin = text.substr(0, std::min<std::size_t>(text.find('\n'), 40));
-        std::replace_if(
-            begin.begin(), begin.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-        throw FormatError(fmt::format("it has no element <VTKFile>; line 1 begins with \"{}\"", begin));
-    }
+    if (root == std::string::npos)
+        throw FormatError(fmt::format("it has no element <VTKFile>; line 1 begins with \"{}\"", shown(text)));
     const std::size_t appended = std::min(text.find("<AppendedData"), text.size());
     const VtkElement file = vtk_markup(std::string_view(text).substr(0, appended));
     if (file.name != "VTKFile" || file.attribute("type") != type)

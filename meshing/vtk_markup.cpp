@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <charconv>
 
+#include "meshing/file_text.hpp"
 #include "meshing/format_error.hpp"
 
 namespace hemoflux::meshing {
 namespace {
 
-constexpr const char* blank = " \t\r\n";
 /// VTK's own files are five deep.
 constexpr std::size_t deepest = 20;
 
@@ -20,10 +20,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 [[noreturn]] void malformed(std::string_view what, std::string_view where) {
-    std::string begin(where.substr(0, std::min<std::size_t>(where.find('\n'), 40)));
-    std::replace_if(
-        begin.begin(), begin.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-    throw FormatError(fmt::format("its XML has {} at \"{}\"", what, begin));
+    throw FormatError(fmt::format("its XML has {} at \"{}\"", what, shown(where)));
 }
 
 /// What stands between < and > as an element without content.

@@ -131,7 +131,7 @@ Json::Value pack(const RunRecord& run, const Series& series) {
         data["frames"].append(packed(positions));
         data["at"].append(series.frames[i].time);
     }
-    // the material point that the tank-treading angle follows
+    // a patch that shows how the membrane goes round
     data["mark"] = run.kind == "coupled";
     const FrameLabel label = label_of(run);
     data["label"] = label.name;

@@ -96,9 +96,10 @@ TEST_F(Run, LeavesTheDocumentedFolder) {
     EXPECT_NEAR(history.column("time_s").back(), 0.2 / 3, 1e-12);
     EXPECT_EQ(history.rows.size(), 5u);  // every 0.05
     const output::Summary s = summary("out");
-    for (const char* name :
-         {"inclination_deg", "period_strain", "taylor_d", "taylor_d_volume", "taylor_d_extent", "strain"})
+    for (const char* name : {"inclination_deg", "tank_treading_cycles_per_strain", "taylor_d",
+                             "taylor_d_volume", "taylor_d_extent", "strain"})
         EXPECT_TRUE(std::isfinite(s.observables.at(name))) << name;
+    EXPECT_TRUE(std::isnan(s.observables.at("period_strain")));  // no half turn in a fifth of a strain unit
     EXPECT_LT(s.conservation.volume, 2e-4);
     EXPECT_LT(s.conservation.area, 5e-4);
     EXPECT_LT(s.conservation.centroid_um, 1e-9);  // recentred

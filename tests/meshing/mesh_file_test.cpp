@@ -111,6 +111,11 @@ TEST_F(MeshFile, VtkArraysHoldWhatTheirPlaceDemands) {
     expect_refused(".vtu", replaced(text, ">8 12<", ">8 7<"), "does not ascend");
     expect_refused(".vtu", replaced(text, ">8 12<", ">8 13<"),
                    "\"connectivity\" holds 12 values instead of 13");
+    expect_refused(".vtu", replaced(text, ">8 12<", ">0 0<"),
+                   "\"connectivity\" holds 12 values instead of 0");
+    expect_refused(".vtu", replaced(text, ">8 12<", ">8 2305843009213693952<"),
+                   "claim 2305843009213693952 nodes, more than its bytes can hold");
+    expect_refused(".vtu", replaced(text, ">-1 0<", ">+-1 0<"), "\"+-1\", which is no value of type Int32");
     expect_refused(".vtu", replaced(text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""),
                    "3 components");
     expect_refused(".vtu", replaced(text, "\"Int32\"", "\"Bit\""), "type \"Bit\"");
@@ -139,11 +144,15 @@ TEST_F(MeshFile, MshSectionsHoldWhatTheyClaim) {
                       blocks = content(corpus / "msh" / "periodic4.msh");
     expect_refused(".msh", content(corpus / "msh" / "count_line.msh"), "more stands there than it claims");
     expect_refused(".msh", replaced(lists, "$Elements\n2\n2 3", "$Elements\n2 2 3"),
-                   "behind what belongs on the line");
+                   "$Elements, its line 1: \" 2 3");
+    expect_refused(".msh", replaced(lists, "$Nodes\n8", "$Nodes\n7"),
+                   "$Nodes, its line 9: more stands there");
     expect_refused(".msh", replaced(lists, "2 3 2 1 1", "2 3 1 1"), "instead of at least 2");
     expect_refused(".msh", replaced(lists, "2 3 2 1 1", "2 3 4 1 1 1 1"), "partitions");
     expect_refused(".msh", replaced(lists, "2 1 \"wall\"", "7 1 \"wall\""), "dimension 7");
-    expect_refused(".msh", replaced(lists, "\"wall\"", "\"wall"), "between quotes");
+    expect_refused(".msh", replaced(lists, "\"wall\"", "\"wall"),
+                   "$PhysicalNames, its line 2: a name is not between quotes");
+    expect_refused(".msh", replaced(lists, "2 1 \"wall\"", "2 -9223372036854775808 \"wall\""), "32 bits");
     expect_refused(".msh", lists + "$NodeData\n$EndNodeData\n", "$NodeData is not read");
     expect_refused(".msh", lists + "$Nodes\n0\n$EndNodes\n", "behind $Elements");
     expect_refused(".msh", replaced(lists, "$Nodes", "$PhysicalNames\n0\n$EndPhysicalNames\n$Nodes"),

@@ -18,11 +18,11 @@
 //   time      RKC2 (Runge-Kutta-Chebyshev, second order, stabilised;
 //             Sommeijer, Shampine & Verwer 1998), the number of stages from the
 //             spectral radius by power iteration.
-//   symmetry  the mesh, flow and so the exact solution are symmetric under x -> -x
-//             and z -> -z; by default only one quarter of the nodes are collocated and
+//   symmetry  the mesh, flow and so the exact solution are symmetric under (x, y, z) ->
+//             (-x, -y, -z) and z -> -z; by default only one quarter of the nodes are collocated and
 //             the rest mirrored (--full 1 turns that off).
 //
-// Build: g++ -O3 -march=native -mprefer-vector-width=512 -ffast-math -std=c++17 capsule_bem.cpp -o capsule_bem
+// Build: g++ -O3 -march=native -mprefer-vector-width=512 -ffast-math -fno-finite-math-only -std=c++17 capsule_bem.cpp -o capsule_bem
 // Use:   capsule_bem --test          validation
 //        capsule_bem --ca 0.1 --level 4 --dt 0.02 --tend 8 [--quad 0..2]
 //                    [--mass 0|1] [--full 0|1] [--single 0|1] [--bend kb/(Es a^2)] [--tag name]
@@ -32,7 +32,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <map>
 #include <random>
 #include <string>
@@ -621,8 +620,7 @@ static void eigen3(double A[3][3], double w[3], double V[3][3]) {  // Jacobi, as
             }
 }
 struct Shape {
-    double volume, D, axis[3], incl, Dext, Dnode, Lext, Bext, Dmid, area;
-    Vec3 centroid;
+    double volume, D, axis[3], incl, Dext, Dnode, Lext, Bext, area;
     double concave, maxConcaveDeg;
 };
 
@@ -688,14 +686,12 @@ static Shape measure(const Mesh& M, const VecN& x) {
     }
     c = (1 / vol) * c;
     S.volume = vol;
-    S.centroid = c;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) I[i][j] = I[i][j] / vol - c[i] * c[j];
     double w[3], V[3][3];
     eigen3(I, w, V);
     for (int i = 0; i < 3; ++i) S.axis[i] = std::sqrt(5 * w[i]);
     S.D = (S.axis[2] - S.axis[0]) / (S.axis[2] + S.axis[0]);
-    S.Dmid = (S.axis[2] - S.axis[1]) / (S.axis[2] + S.axis[1]);
     S.incl = std::atan(V[1][2] / V[0][2]) * 180 / M_PI;
     int imax = 0, imin = 0;
     for (size_t i = 0; i < x.size(); ++i) {
@@ -767,7 +763,7 @@ static void rkcStep(Solver& S, VecN& x, const VecN& f0, double h, int s) {
     x = y1;
 }
 
-static int run(Solver& S, double dt, double tend, const char* tag, const char* dump) {
+static int run(Solver& S, double dt, double tend, const char* tag) {
     S.Gs = 1 / (3 * S.Ca);
     VecN x = S.M.x0, u;
     auto t0 = std::chrono::steady_clock::now();
@@ -807,11 +803,6 @@ static int run(Solver& S, double dt, double tend, const char* tag, const char* d
             stages = std::max(2, int(std::ceil(std::sqrt(1 + 1.5 * dt * rho / (1 - 2 * (2. / 13) / 15)))));
         }
         rkcStep(S, x, u, dt, stages);
-    }
-    if (dump) {
-        FILE* fp = std::fopen(dump, "w");
-        for (auto& v : x) std::fprintf(fp, "%.8f %.8f %.8f\n", v[0], v[1], v[2]);
-        std::fclose(fp);
     }
     return 0;
 }
@@ -964,7 +955,7 @@ int main(int argc, char** argv) {
     Solver S;
     int level = 3, quad = 0;
     double dt = 0.02, tend = 8;
-    const char *tag = "run", *dump = nullptr;
+    const char* tag = "run";
     for (int i = 1; i < argc; ++i) {
         std::string a = argv[i];
         if (a == "--test") {
@@ -996,8 +987,6 @@ int main(int argc, char** argv) {
             S.singleFar = std::atoi(v);
         else if (a == "--bend")
             S.kBend = std::atof(v);
-        else if (a == "--dump")
-            dump = v;
         else {
             std::fprintf(stderr, "unknown option %s\n", a.c_str());
             return 2;
@@ -1006,5 +995,5 @@ int main(int argc, char** argv) {
     S.M = icosphere(level, true);
     S.setQuadrature(quad);
     S.setSymmetry();
-    return run(S, dt, tend, tag, dump);
+    return run(S, dt, tend, tag);
 }

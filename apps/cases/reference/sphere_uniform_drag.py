@@ -83,7 +83,7 @@ class Flow:
     """Discrete problem for one Re, outer radius, mode number and mesh."""
 
     def __init__(self, re, r_out, n_modes, n_cells, far="oseen"):
-        self.re, self.r_out, self.far = re, r_out, far
+        self.re, self.r_out = re, r_out
         self.ang = Angular(n_modes)
         self.nm, self.nc = n_modes, n_cells
         self.h = np.log(r_out) / n_cells
@@ -203,12 +203,12 @@ class Flow:
         z[:, 0] = 1.5 / r * cut
         return p, z
 
-    def solve(self, guess=None, tol=1e-9, max_iter=40, log=False):
+    def solve(self, guess=None, tol=1e-9, max_iter=40):
         p, z = guess if guess is not None else self.start()
         p, z = p.copy(), z.copy()
         nm, nc = self.nm, self.nc
         cd = sum(self.drag(z))
-        for it in range(max_iter):
+        for _ in range(max_iter):
             store, rhs = [None] * (nc + 1), np.zeros((nc + 1, 2 * nm))
             for j in range(nc + 1):
                 res, lo, di, up = self.block(j, p, z, cd)
@@ -225,8 +225,6 @@ class Flow:
             new = sum(self.drag(z))
             step = abs(new / cd - 1)
             change = np.abs(rhs[:, nm:]).max()
-            if log:
-                print(f"#   it {it} cd {new:.9g} dz {change:.2e}", flush=True)
             cd = new
             if step < tol and change < 1e-7:
                 return p, z
