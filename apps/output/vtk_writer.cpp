@@ -50,9 +50,10 @@ std::vector<DataArray> arrays_of(vtkFieldData* attributes) {
     for (int a = 0; a < attributes->GetNumberOfArrays(); ++a) {
         vtkDataArray* array = attributes->GetArray(a);
         if (!array || !array->GetName()) continue;
-        DataArray& out = arrays.emplace_back(array->GetName(), array->GetNumberOfComponents());
+        DataArray out{array->GetName(), array->GetNumberOfComponents(), {}};
         for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
             for (int c = 0; c < out.components; ++c) out.values.push_back(array->GetComponent(i, c));
+        arrays.push_back(std::move(out));
     }
     return arrays;
 }
