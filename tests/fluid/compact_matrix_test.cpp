@@ -83,7 +83,9 @@ std::vector<double> compact_residual(const std::vector<double>& q, std::size_t a
 }  // namespace
 
 // (I/dt - J) z by differences of the fluxes written out above, then the factors: z comes back, for every axis and every
-// condition of the border, to single precision; terms of 1/gamma^2 beside ones of order 1 cost digits at gamma = 0.1.
+// condition of the border, to single precision (3e-7). Terms of 1/gamma^2 beside ones of order 1 cost digits at gamma = 0.1,
+// most where the density has a given gradient, as the elimination does not pivot: 2.4e-4 with g++ and 512-bit packs, 7.0e-4
+// with clang and 256-bit ones.
 TEST(CompactMatrix, SolvesARowExactly) {
     Patch inflow = velocity_patch([](const Vec3d&) { return Vec3d{0.05, 0.02, 0.01}; });
     inflow.density = DensityCondition::given;
@@ -118,7 +120,7 @@ TEST(CompactMatrix, SolvesARowExactly) {
                 matrix.solve(exchange::Buffer<float>(right).data(), scale, x.data());
                 const auto solution = x.to_host();
                 for (std::size_t i = 0; i < z.size(); ++i)
-                    ASSERT_NEAR(solution[i], z[i], gamma == 1 ? 1e-5 : 5e-4)
+                    ASSERT_NEAR(solution[i], z[i], gamma == 1 ? 1e-6 : 1e-3)
                         << axis << " " << &end - ends << " " << gamma << " " << i;
             }
 }
