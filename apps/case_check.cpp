@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "apps/cell_builder.hpp"
 #include "apps/cell_file.hpp"
@@ -43,6 +45,20 @@ void check_inside(const Case& c, std::size_t index, const meshing::SurfaceMesh& 
     }
 }
 
+/// A warning where the nodes of cell number `index` are too far apart for the fluid's grid, else empty.
+std::string sparse_nodes(std::size_t index, const meshing::SurfaceMesh& surface,
+                         const meshing::RectilinearGrid& grid) {
+    constexpr double most = 2.5;
+    const double edge = std::sqrt(4 / std::sqrt(3.0) * meshing::area(surface) /
+                                  static_cast<double>(surface.triangles.size()));
+    if (edge < most * grid.smallest()) return "";
+    return fmt::format(
+        "cell.{}: its nodes are {:.2g} um apart, {:.1f} of the smallest fluid cells: the membrane crumples, "
+        "and fluid "
+        "passes between them. Use more nodes, or wider fluid cells",
+        index, edge, edge / grid.smallest());
+}
+
 }  // namespace
 
 std::vector<std::string> check_case(const Case& c) {
@@ -72,6 +88,8 @@ std::vector<std::string> check_case(const Case& c) {
             place(surface, c.cells[i].axis, c.cells[i].position);
             check_inside(c, i, surface, grid);
         }
+        if (std::string text = sparse_nodes(i, surface, grid); !text.empty())
+            warnings.push_back(std::move(text));
         const ThinnestPart thin = thinnest_part(surface, grid);
         if (thin.grid_cells < 1) {
             warnings.push_back(fmt::format(

@@ -114,10 +114,15 @@ coupling::CellMotion CellObserver::motion(std::size_t cell, double from, double 
     return coupling::classify(history.window(from, to));
 }
 
-std::map<std::string, std::string> CellObserver::modes(double from, double to) const {
+std::map<std::string, std::string> CellObserver::modes(double from, double to, bool sheared) const {
+    constexpr double half_turn = 15;  // strain units, a slow one; a tank-treading membrane takes about 10
     std::map<std::string, std::string> names;
-    for (std::size_t c = 0; c < cells_; ++c)
-        names[cells_ == 1 ? "mode" : fmt::format("{}.mode", c)] = coupling::name_of(motion(c, from, to).mode);
+    for (std::size_t c = 0; c < cells_; ++c) {
+        const coupling::MotionMode mode = motion(c, from, to).mode;
+        const bool open = sheared && mode == coupling::MotionMode::steady && to - from < half_turn;
+        names[cells_ == 1 ? "mode" : fmt::format("{}.mode", c)] =
+            open ? "too short to tell" : coupling::name_of(mode);
+    }
     return names;
 }
 

@@ -30,9 +30,11 @@ class CellObserver {
     /// cells.
     [[nodiscard]] std::map<std::string, double> observables(double from, double to) const;
 
-    /// The motion of one cell over the window, and its name under "mode" (of several cells "CELL.mode").
+    /// The motion of one cell over the window.
     [[nodiscard]] coupling::CellMotion motion(std::size_t cell, double from, double to) const;
-    [[nodiscard]] std::map<std::string, std::string> modes(double from, double to) const;
+    /// Its name under "mode" (of several cells "CELL.mode"); a sheared cell that has not done half a turn is called steady
+    /// only where there was time for one.
+    [[nodiscard]] std::map<std::string, std::string> modes(double from, double to, bool sheared) const;
 
     /// "axial_diameter_um" and "transverse_diameter_um" of the first cell in the last record.
     [[nodiscard]] std::map<std::string, double> final_diameters() const {

@@ -76,6 +76,13 @@ coupling::Numerics numerics_of(const Case& c, double smallest, double sheared) {
     return coupling::choose_numerics(p, choice);
 }
 
+std::string errors_text(const coupling::Numerics& n) {
+    std::string text;
+    for (const auto& [cause, error] : n.errors)
+        text += fmt::format("{}{} {:.1f} %", text.empty() ? "" : "; ", cause, 100 * error);
+    return text + " (estimated)";
+}
+
 std::string describe(const Case& c, const CoupledSystem& s) {
     const coupling::Numerics& n = s.numerics;
     std::string grid = fmt::format("{} hexahedra", s.fluid->cells());
@@ -102,8 +109,7 @@ std::string describe(const Case& c, const CoupledSystem& s) {
         fmt::format("{}{}", n.constraint_damping > 0 ? ", penalties damped" : "",
                     c.time.adaptive ? "; adaptive, this is the longest" : ""),
         n.velocity_um_per_s, s.scales.time_s(), s.scales.pressure_pa, n.force_factor);
-    for (const auto& [cause, error] : n.errors) text += fmt::format("{} {:.1f} %; ", cause, 100 * error);
-    text += "(estimated)";
+    text += errors_text(n);
     if (s.bodies) text += s.bodies->describe();
     text += "\n  exchanged     ";
     for (const auto& field : s.loop->fields().list()) text += fmt::format("{} [{}] ", field.name, field.unit);

@@ -215,7 +215,7 @@ class CoupledRun {
         output::Summary s = start_summary(case_);
         const auto window = case_.output.window_strain.value_or(std::array<double, 2>{0.4 * strain, strain});
         s.observables = observer_->observables(window[0], window[1]);
-        s.labels = observer_->modes(window[0], window[1]);
+        s.labels = observer_->modes(window[0], window[1], case_.shear_rate.has_value());
         s.observables["strain"] = strain;
         if (suspension_)
             for (const auto& [name, value] : suspension_->observables(window[0], window[1]))

@@ -74,6 +74,9 @@ double clock_rate(const Case& c);
 /// Total strain of a case, in units of that clock.
 double strain_of(const Case& c);
 
+/// The relative errors to expect from the numerical choices, in words.
+std::string errors_text(const coupling::Numerics& numerics);
+
 /// The conversion table and the chosen numbers, for the start-up summary.
 std::string describe(const Case& c, const CoupledSystem& system);
 

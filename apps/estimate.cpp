@@ -68,6 +68,8 @@ std::string of_coupled(const Case& c) {
                 fmt::format("Re = {:.3g} of the case, {:.3g} computed", n.physical_reynolds, n.reynolds)) +
            line("Mach number", fmt::format("Ma = {:.3g}", n.mach)) +
            line("lattice viscosity", fmt::format("nu/h = {:.3g}", n.lattice_viscosity)) +
+           line("smallest fluid cell", fmt::format("{:.4g} um", s.smallest())) +
+           line("errors", errors_text(n)) +
            line("step", fmt::format("{:.4g} s, in strain {:.4g}; limit: {}", n.step_seconds, n.step_strain,
                                     n.step_limit)) +
            line("steps", fmt::format("{}{}", c.time.adaptive ? "adaptive, at least " : "", s.plan.steps)) +

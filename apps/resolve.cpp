@@ -93,9 +93,7 @@ bool Checker::fits(const Form& form, const toml::node& value) const {
 }
 
 void Checker::check_range(const Form& form, double value, const toml::node& node) const {
-    const bool inside =
-        (form.open ? value > form.low : value >= form.low) && value <= form.high && std::isfinite(value);
-    if (!inside) {
+    if (!form.holds(value)) {
         const std::string unit = form.unit.empty() ? "" : " " + form.unit;
         refuse(node, fmt::format("out of range, {}", form.because.empty() ? "no such value" : form.because),
                form.range().empty() ? "Give a finite number"

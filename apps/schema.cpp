@@ -30,6 +30,13 @@ Form Form::within(double from, double to, std::string why) const {
     return form;
 }
 
+Form Form::among(std::initializer_list<int> numbers, std::string why) const {
+    Form form = *this;
+    form.values.assign(numbers.begin(), numbers.end());
+    form.because = std::move(why);
+    return form;
+}
+
 Form Form::of(std::size_t n) const {
     Form form = *this;
     form.count = n;
@@ -81,7 +88,13 @@ std::string Form::describe() const {
     return count == any ? "a list of " + words : fmt::format("a list of {} {}", count, words);
 }
 
+bool Form::holds(double value) const {
+    const bool listed = values.empty() || std::find(values.begin(), values.end(), value) != values.end();
+    return listed && (open ? value > low : value >= low) && value <= high && std::isfinite(value);
+}
+
 std::string Form::range() const {
+    if (!values.empty()) return fmt::format("of {}", fmt::join(values, ", "));
     const bool below = std::isfinite(low);
     const bool above_too = std::isfinite(high);
     if (below && above_too) {

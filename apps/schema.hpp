@@ -27,8 +27,9 @@ struct Form {
     std::size_t count = single;             ///< single value, array of this many, or array of any number
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
-    bool open = false;         ///< low itself is not allowed
-    std::string because = {};  ///< why the range is what it is; ends the sentence "... is out of range, "
+    bool open = false;             ///< low itself is not allowed
+    std::string because = {};      ///< why the range is what it is; ends the sentence "... is out of range, "
+    std::vector<int> values = {};  ///< the only numbers allowed; empty: all of the range
 
     /// The same form with values > bound.
     [[nodiscard]] Form above(double bound, std::string why) const;
@@ -36,6 +37,8 @@ struct Form {
     [[nodiscard]] Form up_to(double bound) const;
     /// The same form with values in [from, to].
     [[nodiscard]] Form within(double from, double to, std::string why) const;
+    /// The same form with these numbers only.
+    [[nodiscard]] Form among(std::initializer_list<int> numbers, std::string why) const;
     /// The same form as an array of n values (Form::any: any number of them).
     [[nodiscard]] Form of(std::size_t n) const;
 
@@ -43,8 +46,10 @@ struct Form {
     [[nodiscard]] bool has_word(std::string_view word) const;
     /// In words: "a quantity in um", "3 whole numbers", "one of a, b".
     [[nodiscard]] std::string describe() const;
-    /// The range in words, "" when unbounded: "> 0", "42 .. 40962".
+    /// The range in words, "" when unbounded: "> 0", "1 .. 40", "of 42, 162".
     [[nodiscard]] std::string range() const;
+    /// Whether a number is allowed.
+    [[nodiscard]] bool holds(double value) const;
 };
 
 /// The forms of a value: a quantity that arrives in `unit`, a number, a whole number, true or false, any text, a path

@@ -44,6 +44,7 @@ Json::Value of_single(const Form& form) {
             out["type"] = form.type == Type::number ? "number" : "integer";
             if (std::isfinite(form.low)) out[form.open ? "exclusiveMinimum" : "minimum"] = form.low;
             if (std::isfinite(form.high)) out["maximum"] = form.high;
+            for (const int value : form.values) out["enum"].append(value);
             break;
         case Type::flag:
             out["type"] = "boolean";

@@ -53,9 +53,10 @@ Numerics choose_numerics(const PhysicalCase& p, const NumericsChoice& choice) {
     n.reynolds = n.rate * diameter * diameter / n.nu;
     n.mach = std::sqrt(3.0) * n.rate * p.wall_distance;
     if (!(n.mach < 0.3))
-        throw InputError(fmt::format("Mach number {:.3g}", n.mach),
-                         "the equilibrium is an expansion for small Mach numbers, useful up to 0.3",
-                         "lower numerics.reynolds, numerics.lattice_viscosity or the box");
+        throw InputError(
+            fmt::format("Mach number {:.3g}", n.mach),
+            "the equilibrium is an expansion for small Mach numbers, useful up to 0.3",
+            "use more grid cells or a smaller box, or lower numerics.reynolds or numerics.lattice_viscosity");
     const double ratio = p.shear_rate / n.rate;  // lattice times per second
     n.velocity_um_per_s = ratio;
     n.force_factor = pascal_per_unit_force * n.nu * n.rate / (p.viscosity * p.shear_rate);

@@ -119,7 +119,7 @@ TEST_F(BadInput, TimeNumericsAndOutput) {
 
 TEST_F(BadInput, CellsAndBodies) {
     expect_refused({
-        {cell_with("nodes = 2562", "nodes = 100"), {"100", "642"}},
+        {cell_with("nodes = 2562", "nodes = 100"), {"line 20", "cell.nodes", "of 42, 162, 642"}},
         {cell_with("nodes = 2562", "nodes = true"), {"line 20", "cell.nodes", "a whole number"}},
         {cell_with("shape = \"discocyte\"", "shape = \"pancake\""), {"line 21", "cell.shape", "spheroid"}},
         {cell_with("axis = [0, 1, 0]", "axis = [0, 0, 0]"), {"case.toml", "cell.0.axis is zero"}},

@@ -89,7 +89,7 @@ TEST_F(CommandLine, BadCases) {
     expect_bad("22 mPa s", "-22 mPa s", "a viscosity is positive");
     expect_bad("position = [\"0 um\", \"0 um\"", "position = [\"0 um\", \"9 um\"", "is outside the box");
     expect_bad("position = [\"0 um\", \"0 um\"", "position = [\"0 um\", \"5.5 um\"", "overlaps the side");
-    expect_bad("nodes = 2562", "nodes = 12", "at least 42 nodes");
+    expect_bad("nodes = 2562", "nodes = 12", "an icosphere has 10 4^level + 2 nodes");
     expect_bad("kind = \"coupled\"", "kind = ", "not valid TOML");
     expect_bad("strain = 25", "", "the run has no length");
     expect_bad("\"x\" = \"periodic\"", "\"x-\" = \"periodic\"", "no boundary condition");
@@ -164,11 +164,18 @@ TEST_F(CommandLine, CoarseGridIsAWarningAndTheRunGoesOn) {
     EXPECT_TRUE(fs::exists(folder_ / "out/summary.json"));
 }
 
+TEST_F(CommandLine, NodesTooFarApartForTheGridAreWarnedOf) {
+    write("case.toml", example_case);
+    EXPECT_EQ(run("run --check case.toml --set cell.0.nodes=642").text.find("warning"), std::string::npos);
+    const std::string text = run("run --check case.toml --set cell.0.nodes=42").text;
+    EXPECT_TRUE(text.starts_with("warning: cell.0: its nodes are 1.9 um apart")) << text;
+}
+
 TEST_F(CommandLine, CheckPrintsACaseThatCanBeRunAgain) {
     const std::string file = write("case.toml", example_case);
-    const Outcome first = run("run --check --set cell.0.nodes=162 " + file);
+    const Outcome first = run("run --check --set cell.0.nodes=642 " + file);
     ASSERT_EQ(first.code, 0) << first.text;
-    EXPECT_NE(first.text.find("nodes = 162"), std::string::npos);
+    EXPECT_NE(first.text.find("nodes = 642"), std::string::npos);
     // what is derived is a comment, and its estimates are of the moment
     const auto lasting = [](const std::string& text) {
         std::istringstream lines(text);
@@ -254,7 +261,7 @@ TEST_F(CommandLine, MembraneStretchWritesItsCurve) {
 }
 
 TEST_F(CommandLine, MembraneInputIsChecked) {
-    expect_error("membrane relax --nodes 12 -o x", 2, "at least 42 nodes");
+    expect_error("membrane relax --nodes 12 -o x", 2, "an icosphere has 10 4^level + 2 nodes");
     expect_error("membrane relax --nodes 100 -o x", 2, "642");
     expect_error("membrane relax --reference unform -o x", 2, "\"uniform\" was meant");
     expect_error("membrane stretch --forces 100 -o x", 2, "the unit is missing");

@@ -87,7 +87,7 @@ TEST_F(Restart, OfAnotherCaseIsRefusedAndChangesNothing) {
     const std::string log = content("old/log.txt");
     expect_error(small_run + "--restart old --set shear.rate='5 1/s'", 2, "rate = \"5 1/s\"");
     expect_error(small_run + "--restart old --set shear.rate='5 1/s'", 2, "rate = \"3 1/s\"");
-    expect_error(small_run + "--restart old --set cell.0.nodes=42 -o new", 2, "nodes = 42");
+    expect_error(small_run + "--restart old --set cell.0.nodes=642 -o new", 2, "nodes = 642");
     EXPECT_FALSE(fs::exists(folder_ / "new"));
     EXPECT_EQ(content("old/log.txt"), log);
     EXPECT_TRUE(fs::exists(folder_ / "old/summary.json"));

@@ -44,7 +44,7 @@ TEST(TomlInput, OutOfRangeNamesValueBoundAndReason) {
     expect_all(refusal(example_with("22 mPa s", "-22 mPa s")),
                {"case.toml, line 5", "-22 mPa s", "a viscosity is positive", "> 0 Pa s"});
     expect_all(refusal(example_with("nodes = 2562", "nodes = 12")),
-               {"case.toml, line 20", "cell.nodes = 12", "at least 42 nodes"});
+               {"case.toml, line 20", "cell.nodes = 12", "an icosphere has 10 4^level + 2 nodes"});
     expect_all(refusal(example_with("reynolds = 2", "reynolds = nan")), {"out of range"});
 }
 
